@@ -1,0 +1,37 @@
+"""The errors vasc raises on purpose: each names a thing, its value and what is allowed."""
+
+
+class VascError(Exception):
+    """Base of all errors a user can cause or meet; ``exit_code`` is the program's."""
+
+    exit_code = 2
+
+
+class ConfigError(VascError):
+    """A config is wrong: an unknown key, a bad value, a missing file."""
+
+    def __init__(self, problems: str | list[str]) -> None:
+        self.problems = [problems] if isinstance(problems, str) else list(problems)
+        super().__init__("\n".join(self.problems))
+
+
+class OutlineError(VascError):
+    """A blade outline cannot be used; the message names the place."""
+
+
+class TimelineError(VascError):
+    """A file is not a timeline, is damaged, or holds what this version cannot read."""
+
+
+class OutputError(VascError):
+    """A file cannot be written: it exists, or its folder does not."""
+
+
+class ShapeError(VascError):
+    """An array has the wrong shape or dtype for the door it came through."""
+
+
+class RunError(VascError):
+    """A run could not go on; what was recorded so far is kept."""
+
+    exit_code = 3

@@ -1,0 +1,55 @@
+"""What happened in a step: a kind, a subject and an object, as rows of one table."""
+
+from enum import IntEnum
+
+from vasc.arrays import NULL, Column
+
+
+class EventKind(IntEnum):
+    """Kinds of events; the comment names subject and object."""
+
+    SOURCE_PLACED = 0
+    """(source, -1)"""
+    SOURCE_TAGGED = 1
+    """(source, node): the node is one of the veins the source waits for"""
+    SOURCE_REMOVED = 2
+    """(source, node): the nearest node when the source died"""
+    VEIN_INITIATED = 3
+    """(node, parent): the first node of a new vein, off a parent that had a child"""
+    VEIN_JOINED = 4
+    """(segment, source): two veins met where the source was"""
+    VEIN_ENDED_BLINDLY = 5
+    """(node, source): the vein reached its source, met no other and has no child"""
+    LOOP_CLOSED = 6
+    """(segment, source): the join closed a loop"""
+    STALL_RESOLVED = 7
+    """(parent, source): the pulls cancelled, the vein took the nearest source"""
+    SEGMENT_REFINED = 8
+    """(segment, node): the node halves the segment, which two new ones replace"""
+    GROWTH_ENDED = 9
+    """(-1, -1)"""
+    RUN_FINISHED = 10
+    """(reason, -1): see StopReason"""
+
+
+class StopReason(IntEnum):
+    """Why a run ended by itself."""
+
+    NO_SOURCES = 0
+    """Growth and placement are over and no source is left."""
+    NOTHING_PULLED = 1
+    """Growth and placement are over; the sources left pull no vein."""
+    LIVELOCK = 2
+    """Veins are added again and again without coming nearer to any source."""
+    STEP_LIMIT = 3
+    """The config's last step was reached."""
+
+
+EVENT_COLUMNS = {
+    "step": Column("i4", "step of the event"),
+    "kind": Column("i1", "kind of event, named in the file"),
+    "subject": Column("i4", "row of what it happened to"),
+    "object": Column("i4", "row of what took part, -1 if none"),
+}
+
+NOBODY = NULL

@@ -1,0 +1,172 @@
+"""A state of a run: how many rows of each append-only table exist, and the blade then."""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vasc.arrays import Ids, Points, Table
+from vasc.domain import Blade
+from vasc.events import EVENT_COLUMNS, EventKind
+from vasc.network import NODE_COLUMNS, SEGMENT_COLUMNS, VeinNetwork
+from vasc.sources import PERCEIVED_COLUMNS, SOURCE_COLUMNS, SourceSet
+from vasc.states import STATE_COLUMNS, Kind, SourceState
+
+TABLE_COLUMNS = {
+    "nodes": NODE_COLUMNS,
+    "segments": SEGMENT_COLUMNS,
+    "sources": SOURCE_COLUMNS,
+    "perceived": PERCEIVED_COLUMNS,
+    "states": STATE_COLUMNS,
+    "events": EVENT_COLUMNS,
+}
+"""The append-only tables of a run, in the order of ``State.counts``."""
+
+IDENTITY = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+
+
+@dataclass
+class Tables:
+    """The append-only tables that all states of one run share."""
+
+    tables: dict[str, Table] = field(
+        default_factory=lambda: {name: Table(columns) for name, columns in TABLE_COLUMNS.items()}
+    )
+
+    def __getitem__(self, name: str) -> Table:
+        """Give a table by its name."""
+        return self.tables[name]
+
+    def counts(self) -> tuple[int, ...]:
+        """Give the rows of every table, in the order of ``TABLE_COLUMNS``."""
+        return tuple(table.n_rows for table in self.tables.values())
+
+
+def affine(scale: float) -> NDArray[np.float64]:
+    """Give the (2, 3) map that scales about the origin."""
+    return IDENTITY * scale
+
+
+@dataclass(frozen=True)
+class State:
+    """One moment of a run; a view that copies nothing of what exists.
+
+    Parameters
+    ----------
+    step : int
+        Loop count; 0 is the initial state.
+    time : float
+        Model time, in the config's unit of time (steps by default).
+    blade : Blade
+        The blade at this time, in real size.
+    motion : ndarray of shape (2, 3), float64
+        Affine map from material coordinates to positions at this time.
+    outline_motion : ndarray of shape (2, 3), float64
+        Affine map from the initial outline to the outline at this time.
+    counts : tuple of int
+        Rows of every table that exist at this step (``TABLE_COLUMNS`` order).
+    live : ndarray of shape (s,), int32
+        Ids of the live sources, ascending.
+    tables : Tables
+        The shared tables.
+    is_finished : bool
+        True when the model has nothing left to do.
+    """
+
+    step: int
+    time: float
+    blade: Blade
+    motion: NDArray[np.float64]
+    outline_motion: NDArray[np.float64]
+    counts: tuple[int, ...]
+    live: Ids
+    tables: Tables = field(repr=False)
+    is_finished: bool = False
+
+    def n_rows(self, table: str) -> int:
+        """Give the number of rows of a table at this step."""
+        return self.counts[list(TABLE_COLUMNS).index(table)]
+
+    def rows(self, table: str, column: str) -> NDArray:
+        """Give a column of a table as it was at this step."""
+        return self.tables[table].view(column, 0, self.n_rows(table))
+
+    def moved(self, material: Points) -> Points:
+        """Give the positions of material points at this time."""
+        return moved(material, self.motion)
+
+    @cached_property
+    def network(self) -> VeinNetwork:
+        """The vein network at this step, in real size."""
+        return network_from_columns(
+            {name: self.rows("nodes", name) for name in NODE_COLUMNS},
+            {name: self.rows("segments", name) for name in SEGMENT_COLUMNS},
+            {name: self.rows("events", name) for name in EVENT_COLUMNS},
+            self.moved(self.rows("nodes", "material")),
+        )
+
+    @cached_property
+    def sources(self) -> SourceSet:
+        """The live sources at this step, in real size."""
+        return SourceSet(
+            ids=self.live,
+            positions=self.moved(self.rows("sources", "material")[self.live]),
+            births=self.rows("sources", "birth")[self.live],
+            states=source_states(
+                {name: self.rows("states", name) for name in STATE_COLUMNS},
+                self.n_rows("sources"),
+            )[self.live],
+        )
+
+
+def moved(points: Points, motion: NDArray[np.float64]) -> Points:
+    """Give the images of points under a (2, 3) affine map, by + and * alone."""
+    x, y = points[:, 0], points[:, 1]
+    return np.stack([x * a + y * b + c for a, b, c in motion], axis=1)
+
+
+def network_from_columns(
+    nodes: dict[str, NDArray],
+    segments: dict[str, NDArray],
+    events: dict[str, NDArray],
+    positions: Points,
+) -> VeinNetwork:
+    """Build the network that the first rows of the tables describe.
+
+    Parameters
+    ----------
+    nodes, segments, events : dict of str to ndarray
+        Columns of the tables, cut to one step.
+    positions : ndarray of shape (n, 2), float64
+        Where the nodes are at that step.
+
+    Returns
+    -------
+    VeinNetwork
+        Every node, and the segments not yet replaced by refinement.
+    """
+    refined = events["subject"][events["kind"] == EventKind.SEGMENT_REFINED]
+    is_alive = np.ones(len(segments["birth"]), dtype=bool)
+    is_alive[refined] = False
+    ids = np.flatnonzero(is_alive).astype(np.int32)
+    return VeinNetwork(
+        positions=positions,
+        parents=nodes["parent"],
+        births=nodes["birth"],
+        origins=nodes["origin"],
+        causes=nodes["source"],
+        segments=segments["nodes"][ids],
+        segment_ids=ids,
+        segment_births=segments["birth"][ids],
+        segment_kinds=segments["kind"][ids],
+    )
+
+
+def source_states(states: dict[str, NDArray], n_sources: int) -> NDArray[np.int8]:
+    """Give the state of every source that the first rows of the states table describe."""
+    current = np.full(n_sources, SourceState.ACTIVE, dtype=np.int8)
+    is_source = states["what"] == Kind.SOURCE
+    # rows are in the order of time, so that the last change of a source wins
+    current[states["id"][is_source]] = states["state"][is_source]
+    return current
