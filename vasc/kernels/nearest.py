@@ -1,0 +1,70 @@
+"""The nearest vein node of every source, kept up to date as nodes are added."""
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from vasc.kernels.blocks import blocks_of
+from vasc.kernels.hash_grid import HashGrid, box_distance, nearest, squared_distance
+from vasc.kernels.perceived import Perceived
+
+
+@njit(cache=True)
+def perceive_new(
+    grid: HashGrid,
+    nodes: NDArray[np.float64],
+    sources: NDArray[np.float64],
+    start: int,
+    stop: int,
+    perceived: Perceived,
+) -> None:
+    """Find the nearest nodes of the sources ``start`` to ``stop`` from nothing."""
+    for s in range(start, stop):
+        v, distance = nearest(grid, nodes, sources[s, 0], sources[s, 1])
+        perceived.n_members[s] = 0
+        perceived.is_changed[s] = 1
+        if v >= 0:
+            perceived.members[s, 0] = v
+            perceived.distances[s, 0] = distance
+            perceived.n_members[s] = 1
+
+
+@njit(cache=True)
+def update(
+    grid: HashGrid,
+    nodes: NDArray[np.float64],
+    parents: NDArray[np.int32],
+    start: int,
+    stop: int,
+    sources: NDArray[np.float64],
+    live: NDArray[np.int32],
+    perceived: Perceived,
+) -> None:
+    """Bring the nearest nodes of all live sources up to date with nodes ``start`` to ``stop``.
+
+    A new node takes over only where it is nearer: of equals the older stays.
+    """
+    if len(live) == 0 or stop == start:
+        return
+    blocks = blocks_of(sources, live)
+    for b in range(len(blocks.starts) - 1):
+        first, last = blocks.starts[b], blocks.starts[b + 1]
+        if first == last:
+            continue
+        reach = 0.0
+        for k in range(first, last):
+            s = blocks.order[k]
+            reach = max(reach, perceived.distances[s, 0])
+        box = blocks.boxes[b]
+        for c in range(start, stop):
+            cx, cy = nodes[c, 0], nodes[c, 1]
+            if box_distance(box[0], box[1], box[2], box[3], cx, cy) > reach:
+                continue
+            for k in range(first, last):
+                s = blocks.order[k]
+                distance = squared_distance(cx, cy, sources[s, 0], sources[s, 1])
+                if distance < perceived.distances[s, 0]:
+                    perceived.distances[s, 0] = distance
+                    perceived.members[s, 0] = c
+                    perceived.n_members[s] = 1
+                    perceived.is_changed[s] = 1
