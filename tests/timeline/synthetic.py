@@ -1,0 +1,205 @@
+"""A run that obeys every rule of the format and computes nothing: rows at given rates.
+
+It draws from one stream and can be restored from recorded tables, so that what
+holds for it holds for the models: equal seeds give equal rows, also after a resume.
+"""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+
+from vasc.domain import Blade
+from vasc.events import EventKind, StopReason
+from vasc.state import State, Tables, affine, moved, source_states
+from vasc.states import Kind, SourceState
+from vasc.streams import Streams
+from vasc.timeline import Recorder, Timeline
+
+NAMES = ("placement",)
+SEED = 5
+SQUARE = np.array([[-1.0, 0.0], [1.0, 0.0], [1.0, 2.0], [-1.0, 2.0]])
+TOML = 'kind = "synthetic"\nseed = 5  # größer als null\n'
+CONFIG = {"kind": "synthetic", "seed": SEED}
+
+
+def blade() -> Blade:
+    return Blade.from_rings((SQUARE,), np.zeros((1, 2)))
+
+
+class SyntheticRun:
+    """Isogonic growth by 1 % of the first size a step; rows appended at given rates."""
+
+    def __init__(
+        self, last_step: int, *, nodes: int = 5, perceived: int = 4, sources: int = 3
+    ) -> None:
+        self.last_step = last_step
+        self.rates = {"nodes": nodes, "perceived": perceived, "sources": sources}
+        self.tables = Tables()
+        self.step = -1
+        self.blade = blade()
+
+    def restore(self, tables: Tables, step: int) -> None:
+        self.tables, self.step = tables, step
+
+    def states(self, streams: Streams) -> Iterator[State]:
+        if self.step < 0:
+            yield self._initial()
+        while self.step < self.last_step:
+            yield self._advance(streams)
+
+    def _state(self) -> State:
+        scale = 1.0 + 0.01 * self.step
+        states = self._source_states()
+        return State(
+            step=self.step,
+            time=0.5 * self.step,
+            blade=self.blade.scaled(scale),
+            motion=affine(scale),
+            outline_motion=affine(scale),
+            counts=self.tables.counts(),
+            live=np.flatnonzero(states != SourceState.DRAINED).astype(np.int32),
+            tables=self.tables,
+            is_finished=self.step == self.last_step,
+        )
+
+    def _source_states(self) -> np.ndarray:
+        states = self.tables["states"]
+        columns = {name: states.view(name) for name in ("what", "id", "state")}
+        return source_states(columns, self.tables["sources"].n_rows)
+
+    def _initial(self) -> State:
+        self.step = 0
+        zeros = np.zeros((1, 2))
+        self.tables["nodes"].append(
+            birth=0, parent=-1, origin=0, source=-1, position=zeros, material=zeros
+        )
+        return self._state()
+
+    def _advance(self, streams: Streams) -> State:
+        self.step += 1
+        random = streams["placement"]
+        self._place(random)
+        self._extend(random)
+        self._perceive(random)
+        self._reach(random)
+        if self.step == self.last_step:
+            self._event(EventKind.RUN_FINISHED, int(StopReason.NO_SOURCES), -1)
+        return self._state()
+
+    def _event(self, kind: EventKind, subject: object, other: object) -> None:
+        self.tables["events"].append(step=self.step, kind=kind, subject=subject, object=other)
+
+    def _place(self, random: np.random.Generator) -> None:
+        n_new = int(random.integers(0, self.rates["sources"] + 1))
+        if not n_new:
+            return
+        material = random.random((n_new, 2))
+        rows = self.tables["sources"].append(
+            birth=self.step, cause=0, position=self._moved(material), material=material
+        )
+        self._event(EventKind.SOURCE_PLACED, np.arange(rows.start, rows.stop), -1)
+
+    def _extend(self, random: np.random.Generator) -> None:
+        n_new, n_old = self.rates["nodes"], self.tables["nodes"].n_rows
+        n_sources = self.tables["sources"].n_rows
+        parents = random.integers(0, n_old, n_new)
+        material = random.random((n_new, 2))
+        rows = self.tables["nodes"].append(
+            birth=self.step,
+            parent=parents,
+            origin=1,
+            source=random.integers(-1, n_sources, n_new),
+            position=self._moved(material),
+            material=material,
+        )
+        ends = np.stack([parents, np.arange(rows.start, rows.stop)], axis=1)
+        self.tables["segments"].append(nodes=ends, birth=self.step, kind=0)
+
+    def _perceive(self, random: np.random.Generator) -> None:
+        alive = np.flatnonzero(self._source_states() != SourceState.DRAINED)
+        if alive.size:
+            n_new, n_nodes = self.rates["perceived"], self.tables["nodes"].n_rows
+            sources = np.sort(alive[random.integers(0, len(alive), n_new)])
+            nodes = random.integers(0, n_nodes, n_new)
+            self.tables["perceived"].append(step=self.step, source=sources, node=nodes)
+
+    def _reach(self, random: np.random.Generator) -> None:
+        states = self._source_states()
+        for source in np.flatnonzero(states == SourceState.TAGGED)[:2]:
+            node = int(random.integers(0, self.tables["nodes"].n_rows))
+            self._change(source, SourceState.DRAINED)
+            self._event(EventKind.SOURCE_REMOVED, source, node)
+            if self.tables["nodes"].view("parent")[node] > 0:
+                rows = self.tables["segments"].append(
+                    nodes=np.array([[0, node]]), birth=self.step, kind=1
+                )
+                self._event(EventKind.VEIN_JOINED, rows.start, source)
+        for source in np.flatnonzero(states == SourceState.ACTIVE)[:2]:
+            self._change(source, SourceState.TAGGED)
+            self._event(EventKind.SOURCE_TAGGED, source, self.tables["nodes"].n_rows - 1)
+
+    def _change(self, source: int, state: SourceState) -> None:
+        self.tables["states"].append(step=self.step, what=Kind.SOURCE, id=source, state=state)
+
+    def _moved(self, material: np.ndarray) -> np.ndarray:
+        return moved(material, affine(1.0 + 0.01 * self.step))
+
+
+def create(path: Path, **options: object) -> Recorder:
+    settings: dict = {
+        "config_toml": TOML,
+        "config": CONFIG,
+        "model": "synthetic",
+        "growth": "isogonic",
+        "seed": SEED,
+        "blade": blade(),
+        "stream_names": NAMES,
+        "units": {"length": "um", "segment": 4.0},
+    }
+    return Recorder.create(path, **(settings | options))
+
+
+def record(
+    path: Path,
+    last_step: int,
+    *,
+    stop_after: int | None = None,
+    watch: Callable[[int], object] = lambda step: None,
+    **options: object,
+) -> None:
+    """Record a run, or its first ``stop_after`` steps; ``watch`` sees each observed step."""
+    run, streams = SyntheticRun(last_step), Streams(SEED, NAMES)
+    with create(path, **options) as recorder:
+        for state in run.states(streams):
+            recorder.observe(state, streams)
+            watch(state.step)
+            if state.step == stop_after:
+                recorder.close(complete=False)
+                return
+
+
+def resume(
+    path: Path, last_step: int, *, watch: Callable[[int], object] = lambda step: None
+) -> None:
+    """Finish a run from its last committed frame."""
+    run, streams = SyntheticRun(last_step), Streams(SEED, NAMES)
+    with Timeline(path) as timeline:
+        if timeline.n_frames:
+            run.restore(timeline.tables(), timeline.last_step)
+            streams.restore(timeline.stream_words())
+    with Recorder.resume(path) as recorder:
+        for state in run.states(streams):
+            recorder.observe(state, streams)
+            watch(state.step)
+
+
+def contents(path: Path, n_frames: int | None = None) -> dict[str, bytes]:
+    """Give the bytes of the first frames (all when not given) and of their rows, by name."""
+    with Timeline(path) as timeline:
+        n = timeline.n_frames if n_frames is None else n_frames
+        found = {f"frames/{name}": rows[:n].tobytes() for name, rows in timeline.frames.items()}
+        for name, table in timeline.tables(n - 1).tables.items():
+            for column in table.columns:
+                found[f"{name}/{column}"] = table.view(column).tobytes()
+    return found

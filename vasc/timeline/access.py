@@ -1,0 +1,154 @@
+"""Reading columns of a file that may still be written: whole rows, or one clear error."""
+
+import time
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from vasc.errors import TimelineError
+from vasc.timeline import guard, layout
+from vasc.timeline.opening import Found, find
+from vasc.timeline.storage import reason
+
+
+class OpenFile:
+    """An open timeline file and what was committed in it at that moment.
+
+    A file that grows while it is read may show a mixture of old and new
+    structure. Rows that were never written hold a value no row may hold, so a
+    mixture is seen; the file is then opened again.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Raises
+    ------
+    TimelineError
+        If it is no sound timeline.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.file, self.found = _open(path)
+        self._datasets: dict[str, h5py.Dataset] = {}
+
+    def close(self) -> None:
+        """Close the file; closing twice is fine."""
+        self._datasets.clear()
+        self.file.close()
+
+    def read(self, name: str, start: int, stop: int, out: NDArray | None = None) -> NDArray:
+        """Read rows of a growing column, into ``out`` if given.
+
+        Raises
+        ------
+        TimelineError
+            If the rows cannot be read, or the file is closed.
+        """
+        for pause in (*guard.PAUSES, None):
+            self._check_open()
+            try:
+                rows = self._read(name, start, stop, out)
+                if self.found.is_complete or self._is_written(name, rows):
+                    return rows
+                problem = "some rows were never written"
+            except guard.TRANSIENT as error:
+                problem = reason(error)
+            if pause is not None:
+                time.sleep(pause)
+                self._reopen()
+        raise TimelineError(
+            f"{self.path}: {name}: rows {start} to {stop} cannot be read: {problem}"
+        )
+
+    def read_array(self, name: str) -> NDArray:
+        """Read an array that never grows.
+
+        Raises
+        ------
+        TimelineError
+            If it is missing or of another type than the layout says.
+        """
+        self._check_open()
+        column = layout.STATIC[name]
+        dataset = guard.open_dataset(self.path, self.file, name)
+        guard.check_column(self.path, name, dataset, column)
+        return dataset[:]
+
+    def read_text(self, name: str) -> str:
+        """Read a text.
+
+        Raises
+        ------
+        TimelineError
+            If it is missing or no text.
+        """
+        self._check_open()
+        dataset = guard.open_dataset(self.path, self.file, name)
+        if dataset.dtype.kind != "S" or dataset.shape != ():
+            raise TimelineError(f"{self.path}: {name} is not a text")
+        return dataset[()].decode(errors="replace")
+
+    def item(self, name: str) -> Any:
+        """Open a group or dataset of the layout, for its attributes.
+
+        Raises
+        ------
+        TimelineError
+            If it is missing or reached by a link.
+        """
+        self._check_open()
+        return guard.open_item(self.path, self.file, name)
+
+    def _read(self, name: str, start: int, stop: int, out: NDArray | None) -> NDArray:
+        """Read rows once."""
+        dataset = self._datasets.get(name)
+        if dataset is None:
+            dataset = self._datasets[name] = guard.open_dataset(self.path, self.file, name)
+        if out is None:
+            return dataset[start:stop]
+        if stop > start:
+            dataset.read_direct(out, np.s_[start:stop])
+        return out
+
+    def _is_written(self, name: str, rows: NDArray) -> bool:
+        """Tell whether no chunk is missing: chunks are missing as a whole."""
+        probes = rows[:: layout.chunk_rows(name) // 4 or 1]
+        fill = layout.fill_value(rows.dtype)
+        missing = np.isnan(probes) if rows.dtype.kind == "f" else probes == fill
+        last = rows[-1:] == fill if rows.dtype.kind != "f" else np.isnan(rows[-1:])
+        return not (missing.any() or last.any())
+
+    def _reopen(self) -> None:
+        """Open the file again; frames known before stay the frames known."""
+        self.close()
+        self.file, found = _open(self.path)
+        if found.n_frames < self.found.n_frames or found.seed != self.found.seed:
+            raise TimelineError(f"{self.path}: was replaced while it was read")
+
+    def _check_open(self) -> None:
+        """Refuse to read a closed file."""
+        if not self.file:
+            raise TimelineError(f"{self.path}: the timeline is closed")
+
+
+def _open(path: Path) -> tuple[h5py.File, Found]:
+    """Open a file and find what is committed, trying again while it is being written."""
+    for pause in (*guard.PAUSES, None):
+        file = guard.open_for_reading(path)
+        try:
+            return file, find(path, file)
+        except guard.TRANSIENT as error:
+            file.close()
+            if pause is None:
+                raise TimelineError(f"{path}: is damaged: {reason(error)}") from error
+        except BaseException:
+            file.close()
+            raise
+        time.sleep(pause)
+    raise AssertionError("unreachable")

@@ -1,0 +1,121 @@
+"""A new timeline file: everything that is there before the first frame."""
+
+import contextlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from vasc.arrays import Column
+from vasc.domain import Blade
+from vasc.timeline import layout
+from vasc.timeline.storage import Store, beside, check_output, publish
+
+RECORD_BYTES = 8192
+"""Least room for one provenance record."""
+
+
+def create_file(
+    path: Path,
+    *,
+    header: Mapping[str, Any],
+    texts: Mapping[str, str],
+    blade: Blade,
+    stream_names: tuple[str, ...],
+    units: Mapping[str, str | float],
+    first_record: str,
+    force: bool,
+) -> None:
+    """Make a timeline without frames; it gets its name only when it is sound.
+
+    Parameters
+    ----------
+    path : Path
+        The file to make.
+    header : mapping
+        Attributes of the file: model, growth, seed, whether perceived is recorded.
+    texts : mapping of str to str
+        The config, by dataset name.
+    blade : Blade
+        The blade at step 0.
+    stream_names : tuple of str
+        Names of the random streams.
+    units : mapping of str to str or float
+        What a length and a time mean.
+    first_record : str
+        The first provenance record.
+    force : bool
+        Replace a file that exists.
+
+    Raises
+    ------
+    OutputError
+        If the file exists and ``force`` is not set, or cannot be made.
+    """
+    check_output(path, force=force)
+    unready = beside(path)
+    try:
+        store = Store.create(unready)
+        try:
+            with store.writing():
+                _describe(store, header, units)
+                for name, text in texts.items():
+                    store.add_text(name, text, {"meaning": layout.TEXTS[name]})
+                _add_blade(store, blade)
+                _add_columns(store, stream_names)
+                _add_provenance(store, first_record)
+                for name, column in layout.MARKS.items():
+                    store.add_array(
+                        name, np.zeros(1, dtype=column.dtype), {"meaning": column.meaning}
+                    )
+        finally:
+            store.close()
+        publish(unready, path, force=force)
+    finally:
+        with contextlib.suppress(OSError):
+            unready.unlink(missing_ok=True)
+
+
+def _describe(store: Store, header: Mapping[str, Any], units: Mapping[str, str | float]) -> None:
+    """Set the attributes of the file and make the groups."""
+    version = ".".join(str(number) for number in layout.VERSION)
+    store.describe({"format": layout.FORMAT, "version": version, **header})
+    for group, meaning in layout.MEANINGS.items():
+        known = {name: value for name, value in units.items() if value is not None}
+        extra = known if group == layout.UNITS else {}
+        store.add_group(group, {"meaning": meaning, **extra})
+
+
+def _add_blade(store: Store, blade: Blade) -> None:
+    """Write the outline at step 0 and the attachment points."""
+    starts = np.cumsum([0, *(len(ring) for ring in blade.rings)])
+    values = {
+        layout.RING_XY: np.concatenate(blade.rings),
+        layout.RING_STARTS: starts,
+        layout.SEEDS: blade.seeds,
+    }
+    for name, column in layout.STATIC.items():
+        rows = np.ascontiguousarray(values[name], dtype=column.dtype)
+        attributes = {"meaning": column.meaning} | ({"unit": column.unit} if column.unit else {})
+        store.add_array(name, rows, attributes)
+
+
+def _add_columns(store: Store, stream_names: tuple[str, ...]) -> None:
+    """Make the growing columns, empty."""
+    for path, column in layout.growing_columns(len(stream_names)).items():
+        group, _, name = path.partition("/")
+        attributes = layout.column_attributes(group, name, column)
+        if path == "frames/streams":
+            attributes["names"] = np.array([name.encode() for name in stream_names])
+        store.add_column(path, column, layout.chunk_rows(path), attributes)
+
+
+def _add_provenance(store: Store, first_record: str) -> None:
+    """Make the column of records, with the first one in it."""
+    raw = first_record.encode()
+    # room for the same record once more with longer version names, and for its end
+    n_bytes = max(RECORD_BYTES, len(raw) + RECORD_BYTES // 2)
+    column = Column(f"S{n_bytes}", "one JSON text a row; rows of one session are merged")
+    store.add_column(layout.PROVENANCE, column, 1, {"meaning": column.meaning})
+    store.column(layout.PROVENANCE).write(0, np.array([raw], dtype=column.dtype))

@@ -1,0 +1,219 @@
+"""Opening files that may be foreign, damaged, hostile or still being written.
+
+HDF5 follows soft and external links, external raw files and virtual datasets
+without asking, and allocates what a file declares. Here only names of the
+layout are opened, component by component, and only plain data are accepted.
+"""
+
+import os
+import time
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from vasc.arrays import Column
+from vasc.errors import TimelineError
+from vasc.timeline.layout import FORMAT, VERSION
+from vasc.timeline.storage import reason
+
+SIGNATURE = b"\x89HDF\r\n\x1a\n"
+PAUSES = (0.01, 0.02, 0.05, 0.1, 0.2)
+"""Seconds to wait before each further attempt to read a file that is being written."""
+
+TRANSIENT = (OSError, RuntimeError, KeyError, ValueError)
+"""What HDF5 raises on a file caught in the middle of a write."""
+
+ALLOWED_FILTERS = frozenset({1, 2, 3})
+"""deflate, shuffle, fletcher32: only a packed copy has any."""
+MAX_BYTES = 4 << 30
+"""The most that one dataset may declare."""
+MAX_RATIO = 1000
+"""The most that filters may have saved."""
+SLACK = 1 << 20
+"""Bytes a killed run may have declared and not yet written."""
+
+
+def open_for_reading(path: Path) -> h5py.File:
+    """Open a file without a lock, so that no writer is ever disturbed.
+
+    Raises
+    ------
+    TimelineError
+        If the file cannot be opened; in one line, with the reason.
+    """
+    _check_signature(path)
+    for pause in (*PAUSES, None):
+        try:
+            return _open(path)
+        except OSError as error:
+            if pause is None:
+                raise TimelineError(f"{path}: {_explain(error)}") from error
+        time.sleep(pause)
+    raise AssertionError("unreachable")
+
+
+def open_for_writing(path: Path) -> h5py.File:
+    """Open a file to continue it; it is locked against other writers.
+
+    Raises
+    ------
+    TimelineError
+        If another run is writing the file, or it cannot be opened.
+    """
+    _check_signature(path)
+    try:
+        return h5py.File(path, "r+", locking="best-effort")
+    except OSError as error:
+        raise TimelineError(f"{path}: {_explain(error)}") from error
+
+
+def _open(path: Path) -> h5py.File:
+    """Open without a lock, or as this very process has opened the file for writing."""
+    try:
+        return h5py.File(path, "r", locking=False)
+    except OSError as error:
+        # one process must open a file alike each time; its own writer locks
+        if "locking" not in str(error):
+            raise
+        return h5py.File(path, "r", locking="best-effort")
+
+
+def _check_signature(path: Path) -> None:
+    """Refuse what is no file or no HDF5 file."""
+    try:
+        with path.open("rb") as file:
+            head = file.read(len(SIGNATURE))
+    except FileNotFoundError as error:
+        raise TimelineError(f"{path}: no such file") from error
+    except OSError as error:
+        raise TimelineError(f"{path}: cannot be opened: {error.strerror}") from error
+    if head != SIGNATURE:
+        raise TimelineError(f"{path}: is not an HDF5 file, so it is no timeline")
+
+
+def _explain(error: OSError) -> str:
+    """Say in a few words why HDF5 could not open a file."""
+    text = str(error)
+    if isinstance(error, BlockingIOError) or "unable to lock" in text:
+        return "is being written by another run"
+    if "already open" in text:
+        return "is open for reading in this process; close it before it is continued"
+    if "truncated" in text:
+        return "is truncated: its end is missing"
+    return f"cannot be opened: {reason(error)}"
+
+
+def check_header(path: Path, file: h5py.File) -> tuple[int, int]:
+    """Make sure a file is a timeline this version can read; its version is returned.
+
+    Raises
+    ------
+    TimelineError
+        If the file is no timeline, or its major version is another one.
+    """
+    if attribute(file, "format") != FORMAT:
+        raise TimelineError(f"{path}: is an HDF5 file, but not a timeline (format {FORMAT!r})")
+    text = str(attribute(file, "version"))
+    major, dot, minor = text.partition(".")
+    if not (dot and major.isdigit() and minor.isdigit()):
+        raise TimelineError(f"{path}: version {text!r} is not of the form 'major.minor'")
+    if int(major) != VERSION[0]:
+        raise TimelineError(
+            f"{path}: is a timeline of version {text}, this vasc reads {VERSION[0]}.x; "
+            "use a version of vasc that is as new as the file"
+        )
+    return int(major), int(minor)
+
+
+def attribute(item: h5py.HLObject, name: str) -> Any:
+    """Give an attribute as a Python value or an array, None if it is missing."""
+    if name not in item.attrs:
+        return None
+    value = item.attrs[name]
+    if isinstance(value, bytes):
+        return value.decode(errors="replace")
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def names(item: h5py.HLObject, prefix: str = "") -> dict[int, str]:
+    """Give the names of codes that an object's attributes declare; empty if none."""
+    codes, words = attribute(item, f"{prefix}codes"), attribute(item, f"{prefix}names")
+    if not isinstance(codes, np.ndarray) or not isinstance(words, np.ndarray):
+        return {}
+    return {
+        int(code): word.decode(errors="replace")
+        for code, word in zip(codes, words, strict=False)
+        if isinstance(word, bytes)
+    }
+
+
+def open_item(path: Path, file: h5py.File, name: str) -> Any:
+    """Open a group or dataset by its path in the file, following no link to elsewhere.
+
+    Raises
+    ------
+    TimelineError
+        If it is missing or reached by a link.
+    """
+    item: Any = file
+    for part in name.strip("/").split("/") if name != "/" else ():
+        if not isinstance(item, h5py.Group):
+            raise TimelineError(f"{path}: {name}: a part of this name is not a group")
+        link = item.get(part, getlink=True, default=None)
+        if link is None:
+            raise TimelineError(f"{path}: {name} is missing")
+        if not isinstance(link, h5py.HardLink):
+            raise TimelineError(f"{path}: {name}: {part!r} is a link to elsewhere; refused")
+        item = item[part]
+    return item
+
+
+def open_dataset(path: Path, file: h5py.File, name: str) -> h5py.Dataset:
+    """Open a dataset by its path in the file, if it holds plain data of a sane size.
+
+    Raises
+    ------
+    TimelineError
+        If the dataset is missing, is reached by a link or holds data elsewhere.
+    """
+    item = open_item(path, file, name)
+    if not isinstance(item, h5py.Dataset):
+        raise TimelineError(f"{path}: {name} is not a dataset")
+    _check_plain(path, name, item)
+    return item
+
+
+def _check_plain(path: Path, name: str, dataset: h5py.Dataset) -> None:
+    """Refuse data kept elsewhere, unknown filters, and more data than the file can hold."""
+    creation = dataset.id.get_create_plist()
+    if creation.get_external_count():
+        raise TimelineError(f"{path}: {name} keeps its data in another file; refused")
+    if dataset.is_virtual:
+        raise TimelineError(f"{path}: {name} is a virtual dataset; refused")
+    if dataset.dtype.kind not in "iufS":
+        raise TimelineError(f"{path}: {name} has the unexpected type {dataset.dtype}; refused")
+    filters = {creation.get_filter(i)[0] for i in range(creation.get_nfilters())}
+    if not filters <= ALLOWED_FILTERS:
+        unknown = sorted(filters - ALLOWED_FILTERS)
+        raise TimelineError(f"{path}: {name} uses the unknown filters {unknown}; refused")
+    declared = int(dataset.size or 0) * dataset.dtype.itemsize
+    limit = os.path.getsize(path) * (MAX_RATIO if filters else 1) + SLACK
+    if declared > min(limit, MAX_BYTES):
+        raise TimelineError(f"{path}: {name} declares {declared} bytes, more than the file holds")
+
+
+def check_column(path: Path, name: str, dataset: h5py.Dataset, column: Column) -> None:
+    """Make sure a dataset has the dtype and the row shape of a column.
+
+    Raises
+    ------
+    TimelineError
+        If it differs.
+    """
+    if dataset.dtype != np.dtype(column.dtype) or dataset.shape[1:] != column.shape:
+        raise TimelineError(
+            f"{path}: {name} is {dataset.dtype}{list(dataset.shape[1:])} a row, "
+            f"expected {np.dtype(column.dtype)}{list(column.shape)}"
+        )

@@ -1,0 +1,165 @@
+"""The layout of a timeline file, declared once: what writer, reader and validator agree on."""
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import DTypeLike
+
+from vasc.arrays import Column, Columns
+from vasc.events import EventKind, StopReason
+from vasc.network import Origin, SegmentKind
+from vasc.sources import Cause
+from vasc.state import TABLE_COLUMNS
+from vasc.states import Kind, NodeState, SourceState
+from vasc.streams import WORDS_PER_STREAM
+
+FORMAT = "vasc-timeline"
+VERSION = (1, 0)
+"""Major, minor: a reader refuses another major version, a writer continues no newer minor."""
+
+COMMITTED = "committed"
+"""Number of committed frames: the only word a reader trusts."""
+COMPLETE = "complete"
+"""1 when the run ended by itself."""
+CONFIG_TOML = "config/toml"
+CONFIG_JSON = "config/json"
+PROVENANCE = "provenance/records"
+RING_XY = "blade/ring_xy"
+RING_STARTS = "blade/ring_starts"
+SEEDS = "blade/seeds"
+UNITS = "units"
+
+TABLES: dict[str, Columns] = dict(TABLE_COLUMNS)
+
+MEANINGS = {
+    "frames": "one row a step, step 0 first: row number = step",
+    "nodes": "vein nodes; id = row number; no row is ever changed",
+    "segments": "segments between nodes; one replaced by refinement ends with an event",
+    "sources": "auxin sources; their ends are events",
+    "perceived": "the nodes each source attracts, written when the set changes",
+    "states": "every change of a differentiation state",
+    "events": "what happened: a kind, a subject and an object",
+    "blade": "the outline at step 0: rings, closed implicitly, even-odd rule",
+    "config": "the experiment as it was given, and with all defaults filled in",
+    "provenance": "one session a run or resume: software, platform, times, as JSON",
+    "units": "what a length and a time mean; segment lengths and steps if empty",
+}
+"""Meaning of every group."""
+
+MARKS = {
+    COMMITTED: Column("i8", "number of committed frames"),
+    COMPLETE: Column("i1", "1 when the run ended by itself"),
+}
+"""The two values that are rewritten; shape (1,)."""
+
+STATIC = {
+    RING_XY: Column("f8", "points of all rings, one ring after the other", "length", (2,)),
+    RING_STARTS: Column("i4", "first row of each ring, and the number of rows at the end"),
+    SEEDS: Column("f8", "attachment points: the first vein nodes", "length", (2,)),
+}
+"""Arrays written once."""
+
+TEXTS = {
+    CONFIG_TOML: "the config as given (TOML)",
+    CONFIG_JSON: "the config as resolved (JSON)",
+}
+"""Texts written once: scalars, fixed-length UTF-8."""
+
+NAMES: dict[tuple[str, str], dict[str, type[IntEnum]]] = {
+    ("nodes", "origin"): {"": Origin},
+    ("segments", "kind"): {"": SegmentKind},
+    ("sources", "cause"): {"": Cause},
+    ("states", "what"): {"": Kind},
+    ("states", "state"): {"source_": SourceState, "node_": NodeState},
+    ("events", "kind"): {"": EventKind},
+    ("events", "subject"): {"stop_reason_": StopReason},
+}
+"""Columns that hold codes; attributes ``<prefix>codes`` and ``<prefix>names`` name them."""
+
+
+@dataclass(frozen=True)
+class EventRoles:
+    """Tables that the subject and the object of an event kind are rows of, None if of none."""
+
+    subject: str | None
+    object: str | None
+
+
+ROLES: dict[EventKind, EventRoles] = {
+    EventKind.SOURCE_PLACED: EventRoles("sources", None),
+    EventKind.SOURCE_TAGGED: EventRoles("sources", "nodes"),
+    EventKind.SOURCE_REMOVED: EventRoles("sources", "nodes"),
+    EventKind.VEIN_INITIATED: EventRoles("nodes", "nodes"),
+    EventKind.VEIN_JOINED: EventRoles("segments", "sources"),
+    EventKind.VEIN_ENDED_BLINDLY: EventRoles("nodes", "sources"),
+    EventKind.LOOP_CLOSED: EventRoles("segments", "sources"),
+    EventKind.STALL_RESOLVED: EventRoles("nodes", "sources"),
+    EventKind.SEGMENT_REFINED: EventRoles("segments", "nodes"),
+    EventKind.GROWTH_ENDED: EventRoles(None, None),
+    EventKind.RUN_FINISHED: EventRoles(None, None),
+}
+
+
+def count_column(table: str) -> str:
+    """Give the name of the frames column that counts the rows of a table."""
+    return f"n_{table}"
+
+
+def frame_columns(n_streams: int) -> Columns:
+    """Give the columns of ``frames`` in a file that records ``n_streams`` random streams."""
+    counts = {
+        count_column(table): Column("i8", f"rows of {table} that exist at this step")
+        for table in TABLES
+    }
+    return {
+        "step": Column("i4", "loop count, equal to the row number"),
+        "time": Column("f8", "model time", unit="time"),
+        **counts,
+        "motion": Column("f8", "affine map from material coordinates to positions", "", (2, 3)),
+        "outline_motion": Column("f8", "affine map from the outline at step 0", "", (2, 3)),
+        "streams": Column(
+            "u8", "states of the random streams, a row a stream", "", (n_streams, WORDS_PER_STREAM)
+        ),
+    }
+
+
+def growing_columns(n_streams: int) -> dict[str, Column]:
+    """Give all columns that grow with the frames, by their path in the file."""
+    groups: dict[str, Columns] = {"frames": frame_columns(n_streams), **TABLES}
+    return {
+        f"{group}/{name}": column
+        for group, columns in groups.items()
+        for name, column in columns.items()
+    }
+
+
+def chunk_rows(path: str) -> int:
+    """Give the rows of one chunk: few for frames, many where most rows are."""
+    group = path.partition("/")[0]
+    return {"frames": 256, "perceived": 16384}.get(group, 4096)
+
+
+def fill_value(dtype: DTypeLike) -> np.generic:
+    """Give the value of rows that were never written; no committed row may hold it.
+
+    A missing piece of a damaged file, or of one caught in the middle of a
+    write, is thus seen and never taken for zeros.
+    """
+    kind = np.dtype(dtype)
+    if kind.kind == "f":
+        return np.full(1, np.nan, dtype=kind)[0]
+    limits = np.iinfo(kind)
+    return np.full(1, limits.max if kind.kind == "u" else limits.min, dtype=kind)[0]
+
+
+def column_attributes(group: str, name: str, column: Column) -> dict[str, Any]:
+    """Give the attributes of a column: meaning, unit, and the names of its codes."""
+    attributes: dict[str, Any] = {"meaning": column.meaning}
+    if column.unit:
+        attributes["unit"] = column.unit
+    for prefix, enum in NAMES.get((group, name), {}).items():
+        attributes[f"{prefix}codes"] = np.array([int(member) for member in enum], dtype="i4")
+        attributes[f"{prefix}names"] = np.array([m.name.lower().encode() for m in enum])
+    return attributes

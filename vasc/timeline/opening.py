@@ -1,0 +1,178 @@
+"""Opening a timeline: what is committed in it, and opening it to continue."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from vasc.errors import TimelineError
+from vasc.streams import WORDS_PER_STREAM
+from vasc.timeline import guard, layout
+from vasc.timeline.layout import COMMITTED, COMPLETE, PROVENANCE, TABLES, VERSION, count_column
+from vasc.timeline.provenance import sessions
+from vasc.timeline.storage import Store, reason
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a reader trusts in a file.
+
+    Parameters
+    ----------
+    version : tuple of int
+        Major, minor.
+    n_frames : int
+        Committed frames.
+    is_complete : bool
+        Whether the run ended by itself.
+    counts : tuple of int
+        Committed rows of every table.
+    n_streams : int
+        Recorded random streams.
+    seed : int
+        Seed of the run.
+    records_perceived : bool
+        Whether the file holds what sources perceived.
+    """
+
+    version: tuple[int, int]
+    n_frames: int
+    is_complete: bool
+    counts: tuple[int, ...]
+    n_streams: int
+    seed: int
+    records_perceived: bool
+
+
+def find(path: Path, file: h5py.File) -> Found:
+    """Read the header, the marks and the committed row counts of an open file.
+
+    Raises
+    ------
+    TimelineError
+        If the file is no timeline, or lacks what it must have.
+    """
+    version = guard.check_header(path, file)
+    # the counter before anything else: what is opened later holds at least as much
+    n_frames = _mark(path, file, COMMITTED)
+    is_complete = _mark(path, file, COMPLETE) == 1
+    n_streams = _n_streams(path, file)
+    columns = layout.growing_columns(n_streams)
+    datasets = {}
+    for name, column in columns.items():
+        datasets[name] = guard.open_dataset(path, file, name)
+        guard.check_column(path, name, datasets[name], column)
+    counts = [0] * len(TABLES)
+    if n_frames:
+        check_length(path, datasets, "frames/step", n_frames)
+        for k, table in enumerate(TABLES):
+            name = f"frames/{count_column(table)}"
+            check_length(path, datasets, name, n_frames)
+            counts[k] = int(datasets[name][n_frames - 1])
+            if counts[k] < 0:
+                raise TimelineError(f"{path}: {name} is {counts[k]} in its last row")
+    for name in columns:
+        group = name.partition("/")[0]
+        n_rows = n_frames if group == "frames" else counts[list(TABLES).index(group)]
+        check_length(path, datasets, name, n_rows)
+    return Found(
+        version=version,
+        n_frames=n_frames,
+        is_complete=is_complete,
+        counts=tuple(counts),
+        n_streams=n_streams,
+        seed=_header(path, file, "seed", int),
+        records_perceived=bool(_header(path, file, "records_perceived", int)),
+    )
+
+
+def open_to_continue(path: Path) -> tuple[Store, Found, int]:
+    """Open a timeline for writing, locked against other writers.
+
+    Returns
+    -------
+    tuple of Store, Found, int
+        The open file, what is committed in it, and the number of its next session.
+
+    Raises
+    ------
+    TimelineError
+        If the file is no sound timeline, is newer than this version, or is
+        being written by another run.
+    """
+    file = guard.open_for_writing(path)
+    try:
+        found = find(path, file)
+        known = sessions(read_records(path, file))
+        if found.version > VERSION:
+            text, mine = (".".join(map(str, v)) for v in (found.version, VERSION))
+            raise TimelineError(
+                f"{path}: is a timeline of version {text}, this vasc continues {mine} at most; "
+                "use a version of vasc that is as new as the file"
+            )
+    except guard.TRANSIENT as error:
+        file.close()
+        raise TimelineError(f"{path}: is damaged: {reason(error)}") from error
+    except BaseException:
+        file.close()
+        raise
+    return Store(path, file), found, 1 + max((s["session"] for s in known), default=-1)
+
+
+def read_records(path: Path, file: h5py.File) -> list[str]:
+    """Read the provenance records, as texts.
+
+    Raises
+    ------
+    TimelineError
+        If they are missing.
+    """
+    dataset = guard.open_dataset(path, file, PROVENANCE)
+    if dataset.dtype.kind != "S" or dataset.ndim != 1:
+        raise TimelineError(f"{path}: {PROVENANCE} holds no texts")
+    return [raw.decode(errors="replace") for raw in dataset[:]]
+
+
+def check_length(path: Path, datasets: dict[str, h5py.Dataset], name: str, n_rows: int) -> None:
+    """Make sure a column holds the committed rows.
+
+    Raises
+    ------
+    TimelineError
+        If it is shorter.
+    """
+    if datasets[name].shape[0] < n_rows:
+        raise TimelineError(
+            f"{path}: {name} has {datasets[name].shape[0]} rows, {n_rows} are committed"
+        )
+
+
+def _mark(path: Path, file: h5py.File, name: str) -> int:
+    """Read a mark."""
+    dataset = guard.open_dataset(path, file, name)
+    if dataset.shape != (1,) or dataset.dtype != np.dtype(layout.MARKS[name].dtype):
+        raise TimelineError(f"{path}: {name} is not one number of type {layout.MARKS[name].dtype}")
+    value = int(dataset[0])
+    if value < 0:
+        raise TimelineError(f"{path}: {name} is {value}")
+    return value
+
+
+def _n_streams(path: Path, file: h5py.File) -> int:
+    """Give the number of recorded streams."""
+    shape = guard.open_dataset(path, file, "frames/streams").shape
+    if len(shape) != 3 or shape[2] != WORDS_PER_STREAM or shape[1] > 1000:
+        raise TimelineError(f"{path}: frames/streams has rows of shape {list(shape[1:])}")
+    return int(shape[1])
+
+
+def _header(path: Path, file: h5py.File, name: str, kind: Callable[[Any], Any]) -> Any:
+    """Read an attribute of the file."""
+    value = guard.attribute(file, name)
+    try:
+        return kind(value)
+    except (TypeError, ValueError) as error:
+        raise TimelineError(f"{path}: the attribute {name!r} is {value!r}") from error

@@ -1,0 +1,360 @@
+"""The reader: a recorded run, opened at once and read piece by piece."""
+
+import json
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vasc.arrays import NULL, Points, Table
+from vasc.domain import Blade
+from vasc.errors import OutlineError, TimelineError
+from vasc.state import Tables
+from vasc.timeline import guard, layout, opening
+from vasc.timeline.access import OpenFile
+from vasc.timeline.frame import Frame, require
+from vasc.timeline.layout import TABLES, count_column
+from vasc.timeline.lineage import Lineage
+from vasc.timeline.provenance import sessions
+
+AXES = {"position": ("x", "y"), "material": ("x", "y"), "nodes": ("proximal", "distal")}
+"""Suffixes of the data frame columns that one pair column becomes."""
+
+
+class Events(Mapping[str, NDArray]):
+    """The events of a run: a mapping of columns, with counts by kind.
+
+    Parameters
+    ----------
+    columns : dict of str to ndarray
+        ``step``, ``kind``, ``subject`` and ``object``, each of shape (n,).
+    names : dict of int to str
+        Names of the kinds, as the file gives them.
+    """
+
+    def __init__(self, columns: dict[str, NDArray], names: dict[int, str]) -> None:
+        self._columns = columns
+        self.names = names
+
+    def __getitem__(self, name: str) -> NDArray:
+        return self._columns[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    def counts(self) -> dict[str, int]:
+        """Give the number of events of each kind that occurred, by its name."""
+        codes, numbers = np.unique(self["kind"], return_counts=True)
+        return {
+            self.names.get(code, f"kind {code}"): number
+            for code, number in zip(codes.tolist(), numbers.tolist(), strict=True)
+        }
+
+
+class Timeline:
+    """A recorded run. Opening reads only the header; the rest is read when asked for.
+
+    A run that is still being written can be opened: the frames committed at
+    that moment are what the timeline holds, and the writer is not disturbed.
+
+    Parameters
+    ----------
+    path : str or Path
+        A timeline file.
+
+    Attributes
+    ----------
+    opened : OpenFile
+        The open file.
+
+    Raises
+    ------
+    TimelineError
+        If the file is no timeline, is damaged, or is of a newer version.
+    """
+
+    def __init__(self, path: str | Path) -> None:
+        self.path = Path(path)
+        self.opened = OpenFile(self.path)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        state = "complete" if self.is_complete else "not complete"
+        return f"Timeline({str(self.path)!r}, frames={self.n_frames}, {state})"
+
+    def close(self) -> None:
+        """Close the file; what was read already stays usable."""
+        self.opened.close()
+
+    @property
+    def n_frames(self) -> int:
+        """Number of recorded steps, step 0 included."""
+        return self.opened.found.n_frames
+
+    @property
+    def last_step(self) -> int:
+        """The last recorded step, -1 if there is none."""
+        return self.n_frames - 1
+
+    @property
+    def is_complete(self) -> bool:
+        """True when the run ended by itself."""
+        return self.opened.found.is_complete
+
+    @property
+    def version(self) -> str:
+        """Version of the format, for example ``"1.0"``."""
+        return ".".join(str(number) for number in self.opened.found.version)
+
+    @property
+    def seed(self) -> int:
+        """Seed of the run."""
+        return self.opened.found.seed
+
+    @property
+    def records_perceived(self) -> bool:
+        """True when the file holds which nodes each source attracts."""
+        return self.opened.found.records_perceived
+
+    @cached_property
+    def model(self) -> str:
+        """Name of the model."""
+        return str(guard.attribute(self.opened.item("/"), "model"))
+
+    @cached_property
+    def growth(self) -> str:
+        """Name of the growth."""
+        return str(guard.attribute(self.opened.item("/"), "growth"))
+
+    @cached_property
+    def units(self) -> dict[str, str | float]:
+        """What a length and a time mean; empty for segment lengths and steps."""
+        group = self.opened.item(layout.UNITS)
+        return {name: guard.attribute(group, name) for name in group.attrs if name != "meaning"}
+
+    @cached_property
+    def config_toml(self) -> str:
+        """The config as it was given."""
+        return self.opened.read_text(layout.CONFIG_TOML)
+
+    @cached_property
+    def config(self) -> dict[str, Any]:
+        """The config with all defaults."""
+        try:
+            config = json.loads(self.opened.read_text(layout.CONFIG_JSON))
+        except (ValueError, RecursionError) as error:
+            raise TimelineError(f"{self.path}: {layout.CONFIG_JSON} is no JSON: {error}") from error
+        if not isinstance(config, dict):
+            raise TimelineError(f"{self.path}: {layout.CONFIG_JSON} is no JSON object")
+        return config
+
+    @cached_property
+    def provenance(self) -> list[dict[str, Any]]:
+        """One dict a session (run, resume), as the provenance schema describes it."""
+        return sessions(opening.read_records(self.path, self.opened.file))
+
+    @cached_property
+    def event_names(self) -> dict[int, str]:
+        """Names of the kinds of events."""
+        return guard.names(self.opened.item("events/kind"))
+
+    @cached_property
+    def stop_reason(self) -> str | None:
+        """Why the run ended, None if it has not."""
+        finished = [code for code, name in self.event_names.items() if name == "run_finished"]
+        subjects = self.events["subject"][np.isin(self.events["kind"], finished)]
+        if not subjects.size:
+            return None
+        names = guard.names(self.opened.item("events/subject"), "stop_reason_")
+        return names.get(int(subjects[-1]), f"reason {subjects[-1]}")
+
+    @cached_property
+    def stream_names(self) -> tuple[str, ...]:
+        """Names of the random streams, in the order of their recorded words."""
+        names = self.opened.item("frames/streams").attrs.get("names", [])
+        return tuple(bytes(name).decode(errors="replace") for name in names)
+
+    @cached_property
+    def initial_blade(self) -> Blade:
+        """The blade at step 0."""
+        xy = self.opened.read_array(layout.RING_XY)
+        starts = self.opened.read_array(layout.RING_STARTS)
+        ends_fit = len(starts) > 1 and starts[0] == 0 and starts[-1] == len(xy)
+        if not ends_fit or (np.diff(starts) < 3).any():
+            raise TimelineError(f"{self.path}: {layout.RING_STARTS} does not divide the outline")
+        rings = tuple(np.split(xy, starts[1:-1]))
+        try:
+            return Blade.from_rings(rings, self.opened.read_array(layout.SEEDS))
+        except OutlineError as error:
+            raise TimelineError(f"{self.path}: the recorded outline is bad: {error}") from error
+
+    @cached_property
+    def frames(self) -> dict[str, NDArray]:
+        """All columns of ``frames``, row number = step."""
+        columns = layout.frame_columns(self.opened.found.n_streams)
+        return {name: self.opened.read(f"frames/{name}", 0, self.n_frames) for name in columns}
+
+    @cached_property
+    def events(self) -> Events:
+        """All events so far."""
+        columns = {name: self.table("events", name) for name in TABLES["events"]}
+        return Events(columns, self.event_names)
+
+    @cached_property
+    def lineage(self) -> Lineage:
+        """Who descends from whom, and what became of each source."""
+        return Lineage(self)
+
+    def n_rows(self, table: str) -> int:
+        """Give the number of rows of a table.
+
+        Raises
+        ------
+        TimelineError
+            If there is no such table.
+        """
+        if table not in TABLES:
+            raise TimelineError(f"there is no table {table!r}; tables are {', '.join(TABLES)}")
+        return self.opened.found.counts[list(TABLES).index(table)]
+
+    def table(self, name: str, column: str, start: int = 0, stop: int | None = None) -> NDArray:
+        """Read rows ``start`` to ``stop`` of a column; all rows when not given.
+
+        Raises
+        ------
+        TimelineError
+            If there is no such table, column or row, or the rows cannot be read.
+        """
+        n_rows = self.n_rows(name)
+        if column not in TABLES[name]:
+            known = ", ".join(TABLES[name])
+            raise TimelineError(f"table {name!r} has no column {column!r}; columns are {known}")
+        stop = n_rows if stop is None else stop
+        if not 0 <= start <= stop <= n_rows:
+            raise TimelineError(f"rows {start} to {stop} of {name}: it has {n_rows}")
+        return self.opened.read(f"{name}/{column}", start, stop)
+
+    def frame(self, step: int = -1) -> Frame:
+        """Give a recorded step, the last one when not given.
+
+        Raises
+        ------
+        TimelineError
+            If the step is not recorded.
+        """
+        step = self._step(step)
+        columns = layout.frame_columns(self.opened.found.n_streams)
+        row = {
+            name: self.opened.read(f"frames/{name}", step, step + 1)[0]
+            for name in columns
+            if name != "streams"
+        }
+        return Frame(self, step, row)
+
+    def positions(self, step: int = -1) -> Points:
+        """Give where the nodes of a step were at that step, shape (n, 2).
+
+        Raises
+        ------
+        TimelineError
+            If the step is not recorded.
+        """
+        return self.frame(step).positions
+
+    def stream_words(self, step: int = -1) -> NDArray[np.uint64]:
+        """Give the states of the random streams after a step, shape (n_streams, 6).
+
+        Raises
+        ------
+        TimelineError
+            If the step is not recorded.
+        """
+        step = self._step(step)
+        return self.opened.read("frames/streams", step, step + 1)[0]
+
+    def tables(self, step: int = -1) -> Tables:
+        """Give tables filled with all rows up to a step, for a run to go on from.
+
+        Raises
+        ------
+        TimelineError
+            If the step is not recorded.
+        """
+        step = self._step(step)
+        filled: dict[str, Table] = {}
+        for name, columns in TABLES.items():
+            count = f"frames/{count_column(name)}"
+            n_rows = int(self.opened.read(count, step, step + 1)[0])
+            table = Table(columns, capacity=max(256, n_rows + n_rows // 8))
+            for column, array in table.arrays.items():
+                self.opened.read(f"{name}/{column}", 0, n_rows, out=array[:n_rows])
+            table.n_rows = n_rows
+            filled[name] = table
+        return Tables(filled)
+
+    def to_pandas(self, name: str) -> Any:
+        """Give a table, or ``frames``, as a ``pandas.DataFrame``; its index is the id.
+
+        Codes become names, pairs become two columns (``position_x``,
+        ``position_y``), null stays -1.
+
+        Raises
+        ------
+        TimelineError
+            If there is no such table.
+        VascError
+            If pandas is not installed.
+        """
+        pandas = require("pandas", "tables")
+        if name == "frames":
+            columns = {key: rows for key, rows in self.frames.items() if key != "streams"}
+        else:
+            self.n_rows(name)
+            columns = {column: self.table(name, column) for column in TABLES[name]}
+        flat: dict[str, Any] = {}
+        for key, rows in columns.items():
+            words = guard.names(self.opened.item(f"{name}/{key}"))
+            if words:
+                values = pandas.Series(rows).map(words)
+                flat[key] = values.astype(pandas.CategoricalDtype(list(words.values())))
+            else:
+                flat.update(_flat(key, rows))
+        return pandas.DataFrame(flat).rename_axis("step" if name == "frames" else "id")
+
+    def _step(self, step: int) -> int:
+        """Give the row of a step; -1 is the last."""
+        if not self.n_frames:
+            raise TimelineError(f"{self.path}: no step is recorded yet")
+        if step == NULL:
+            return self.last_step
+        if not 0 <= step <= self.last_step:
+            raise TimelineError(
+                f"{self.path}: step {step} is not recorded; steps 0 to {self.last_step} are"
+            )
+        return step
+
+
+def _flat(key: str, rows: NDArray) -> dict[str, NDArray]:
+    """Give one column a number of each row."""
+    if rows.ndim == 1:
+        return {key: rows}
+    wide = rows.reshape(len(rows), int(np.prod(rows.shape[1:])))
+    suffixes = AXES.get(key) or tuple(str(k) for k in range(wide.shape[1]))
+    return {f"{key}_{suffix}": wide[:, k] for k, suffix in enumerate(suffixes)}

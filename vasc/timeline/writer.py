@@ -1,0 +1,338 @@
+"""The recorder: an observer that writes every step of a run into a timeline file."""
+
+import json
+import time
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vasc.domain import Blade
+from vasc.errors import TimelineError
+from vasc.state import State, Tables
+from vasc.streams import Streams
+from vasc.timeline import layout, opening
+from vasc.timeline.creation import create_file
+from vasc.timeline.layout import COMMITTED, COMPLETE, PROVENANCE, TABLES, count_column
+from vasc.timeline.provenance import begin_session, end_session
+from vasc.timeline.storage import GrowingColumn, Store
+
+BATCH_FRAMES = 64
+"""Frames that are committed together at most."""
+BATCH_SECONDS = 1.0
+"""Age of the oldest frame at which a batch is committed."""
+
+
+class _Pending(NamedTuple):
+    """What a frame needs beyond the shared tables, which only grow."""
+
+    step: int
+    time: float
+    counts: tuple[int, ...]
+    motion: NDArray[np.float64]
+    outline_motion: NDArray[np.float64]
+    streams: NDArray[np.uint64]
+
+
+class Recorder:
+    """Records every state it observes; made by :meth:`create` or :meth:`resume`.
+
+    Rows stay in the run's own append-only tables until a batch is committed:
+    rows, flush, the frame counter, flush. Killed at any moment, a run lacks at
+    most its last batch. As a context manager it commits what was observed also
+    when the run fails or is interrupted.
+
+    Attributes
+    ----------
+    path : Path
+        The file.
+    n_frames : int
+        Frames committed so far.
+    phases : dict of str to float
+        Wall seconds per phase; the caller adds its own, ``record`` and
+        ``total`` are filled in here.
+    """
+
+    def __init__(self, store: Store, found: opening.Found, session: int) -> None:
+        self.path = store.path
+        self.n_frames = found.n_frames
+        self.phases: dict[str, float] = {}
+        self._store = store
+        self._session = session
+        self._was_complete = found.is_complete
+        self._is_finished = found.is_complete
+        self._records_perceived = found.records_perceived
+        self._written = list(found.counts)
+        self._columns: dict[str, GrowingColumn] = {
+            name: store.column(name) for name in layout.growing_columns(found.n_streams)
+        }
+        self._pending: list[_Pending] = []
+        self._tables: Tables | None = None
+        self._opened = self._oldest = self._latest = time.perf_counter()
+        self._seconds = 0.0
+        self._is_closed = self._is_broken = False
+
+    @classmethod
+    def create(
+        cls,
+        path: str | Path,
+        *,
+        config_toml: str,
+        config: Mapping[str, Any],
+        model: str,
+        growth: str,
+        seed: int,
+        blade: Blade,
+        stream_names: Iterable[str],
+        units: Mapping[str, str | float] | None = None,
+        force: bool = False,
+        record_perceived: bool = True,
+    ) -> Self:
+        """Make a new timeline file, ready to record step 0.
+
+        Parameters
+        ----------
+        path : str or Path
+            The file to make. It appears under its name only when it is sound.
+        config_toml : str
+            The config as it was given.
+        config : mapping
+            The config with all defaults, as JSON values.
+        model, growth : str
+            Names of the model and of the growth.
+        seed : int
+            Seed of the run.
+        blade : Blade
+            The blade at step 0.
+        stream_names : iterable of str
+            Names of the random streams, in the order of their recorded words.
+        units : mapping of str to str or float, optional
+            What a length and a time mean.
+        force : bool
+            Replace a file that exists.
+        record_perceived : bool
+            Record which nodes each source attracts.
+
+        Raises
+        ------
+        OutputError
+            If the file exists and ``force`` is not set, or cannot be made.
+        """
+        names = tuple(stream_names)
+        first = begin_session(0, kind="run", seed=seed, parameters=config)
+        header = {
+            "model": model,
+            "growth": growth,
+            "seed": np.uint64(seed),
+            "records_perceived": np.int8(record_perceived),
+        }
+        create_file(
+            Path(path),
+            header=header,
+            texts={layout.CONFIG_TOML: config_toml, layout.CONFIG_JSON: json.dumps(config)},
+            blade=blade,
+            stream_names=names,
+            units={} if units is None else units,
+            first_record=json.dumps(first),
+            force=force,
+        )
+        store, found, _ = opening.open_to_continue(Path(path))
+        return cls(store, found, session=0)
+
+    @classmethod
+    def resume(cls, path: str | Path) -> Self:
+        """Open a timeline to continue it, cut to its committed frames.
+
+        What a killed run wrote and did not commit is dropped, so that the
+        finished file holds the same rows as that of an undisturbed run. The
+        states observed next must share tables filled by ``Timeline.tables``.
+
+        Raises
+        ------
+        TimelineError
+            If the file is no sound timeline, is newer than this version, or is
+            being written by another run.
+        """
+        store, found, session = opening.open_to_continue(Path(path))
+        try:
+            recorder = cls(store, found, session=session)
+            with store.writing():
+                recorder._cut()
+                begin = begin_session(session, kind="resume", seed=found.seed)
+                recorder._add_record(begin)
+        except BaseException:
+            store.close()
+            raise
+        return recorder
+
+    def observe(self, state: State, streams: Streams) -> None:
+        """Take note of a state; a batch is committed when it is full or old.
+
+        Raises
+        ------
+        TimelineError
+            If the state is not the next step, or the recorder is closed.
+        OutputError
+            If the file cannot be written.
+        """
+        started = time.perf_counter()
+        pending = self._pending
+        if state.step != self.n_frames + len(pending) or self._is_closed:
+            self._refuse(state.step)
+        if not pending:
+            self._oldest = started
+        pending.append(
+            _Pending(
+                state.step,
+                state.time,
+                state.counts,
+                state.motion,
+                state.outline_motion,
+                streams.state(),
+            )
+        )
+        self._tables = state.tables
+        self._is_finished = state.is_finished
+        # the next frame is expected to take as long as this one did: if it would
+        # come too late, the batch goes out now; step 0 always does
+        next_age = 2.0 * started - self._latest - self._oldest
+        self._latest = started
+        if len(pending) >= BATCH_FRAMES or next_age >= BATCH_SECONDS or state.step == 0:
+            self._commit()
+        self._seconds += time.perf_counter() - started
+
+    def close(self, complete: bool | None = None, *, outcome: str | None = None) -> None:
+        """Commit what was observed, note how the session ended, close the file.
+
+        Parameters
+        ----------
+        complete : bool, optional
+            True if the run ended by itself; as the last state says when not given.
+        outcome : str, optional
+            A word for the provenance: ``complete`` or ``stopped`` when not given.
+
+        Raises
+        ------
+        OutputError
+            If the file cannot be written.
+        """
+        if self._is_closed:
+            return
+        self._is_closed = True
+        is_complete = self._is_finished if complete is None else complete
+        try:
+            if not self._is_broken:
+                self._finish(is_complete, outcome or ("complete" if is_complete else "stopped"))
+        finally:
+            self._store.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if error is None:
+            self.close()
+        elif isinstance(error, KeyboardInterrupt | SystemExit | GeneratorExit):
+            self.close(complete=False, outcome="interrupted")
+        else:
+            self.close(complete=False, outcome=f"failed: {type(error).__name__}: {error}"[:400])
+
+    def _refuse(self, step: int) -> None:
+        """Say why a state cannot be recorded."""
+        if self._is_closed:
+            raise TimelineError(f"{self.path}: the recorder is closed")
+        expected = self.n_frames + len(self._pending)
+        raise TimelineError(f"{self.path}: step {step} came, step {expected} was expected")
+
+    def _commit(self) -> None:
+        """Write the pending frames and their rows; only then the frame counter."""
+        if not self._pending or self._tables is None:
+            return
+        counts = np.array([frame.counts for frame in self._pending], dtype=np.int64)
+        if not self._records_perceived:
+            counts[:, list(TABLES).index("perceived")] = 0
+        # broken until done: what HDF5 does after a failed write is not to be trusted.
+        # An interrupt is no failed write, and the same rows can be written again.
+        self._is_broken = True
+        try:
+            with self._store.writing():
+                self._write_rows(self._tables, counts[-1].tolist())
+                self._write_frames(counts)
+                if self._was_complete:
+                    self._store.mark(COMPLETE, 0)
+                    self._was_complete = False
+                self._store.flush()
+                self._store.mark(COMMITTED, self.n_frames + len(self._pending))
+        except KeyboardInterrupt:
+            self._is_broken = False
+            raise
+        n_frames, written = self.n_frames + len(self._pending), counts[-1].tolist()
+        # no call in between, so that no interrupt leaves half of this done
+        self._is_broken, self.n_frames, self._written, self._pending = False, n_frames, written, []
+
+    def _write_rows(self, tables: Tables, counts: list[int]) -> None:
+        """Write the rows of every table that are new since the last commit."""
+        for table, start, stop in zip(TABLES, self._written, counts, strict=True):
+            if stop > start:
+                for name in TABLES[table]:
+                    self._columns[f"{table}/{name}"].write(
+                        start, tables[table].view(name, start, stop)
+                    )
+
+    def _write_frames(self, counts: NDArray[np.int64]) -> None:
+        """Write the pending rows of ``frames``."""
+        fields = {name: [getattr(f, name) for f in self._pending] for name in _FRAME_FIELDS}
+        values: dict[str, Any] = {
+            **fields,
+            **{count_column(table): counts[:, k] for k, table in enumerate(TABLES)},
+        }
+        for name, rows in values.items():
+            column = self._columns[f"frames/{name}"]
+            column.write(self.n_frames, np.ascontiguousarray(rows, dtype=column.dtype))
+
+    def _cut(self) -> None:
+        """Drop rows that were written and not committed."""
+        for table, n_rows in zip(TABLES, self._written, strict=True):
+            for name in TABLES[table]:
+                self._columns[f"{table}/{name}"].cut(n_rows)
+        for name, column in self._columns.items():
+            if name.startswith("frames/"):
+                column.cut(self.n_frames)
+        self._store.flush()
+
+    def _add_record(self, record: Mapping[str, Any]) -> None:
+        """Append a provenance record."""
+        column = self._store.column(PROVENANCE)
+        rows = np.array([json.dumps(record).encode()], dtype=column.dtype)
+        column.write(column.n_rows, rows)
+        self._store.flush()
+
+    def _finish(self, is_complete: bool, outcome: str) -> None:
+        """Commit the rest, then the provenance, then the completion mark."""
+        started = time.perf_counter()
+        self._commit()
+        ended = time.perf_counter()
+        self.phases["record"] = self._seconds + ended - started
+        self.phases["total"] = ended - self._opened
+        with self._store.writing():
+            self._add_record(
+                end_session(
+                    self._session,
+                    outcome=outcome,
+                    last_step=self.n_frames - 1,
+                    wall_seconds=self.phases,
+                )
+            )
+            if is_complete:
+                self._store.mark(COMPLETE, 1)
+
+
+_FRAME_FIELDS = ("step", "time", "motion", "outline_motion", "streams")
