@@ -1,0 +1,35 @@
+"""What analyses and pictures look at: one moment of a run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+from vasc.network import VeinNetwork
+from vasc.sources import SourceSet
+
+if TYPE_CHECKING:
+    from vasc.domain import Blade
+
+
+class Moment(Protocol):
+    """A recorded frame, or a state of a running simulation."""
+
+    @property
+    def step(self) -> int:
+        """Loop count; 0 is the initial state."""
+
+    @property
+    def time(self) -> float:
+        """Model time."""
+
+    @property
+    def blade(self) -> Blade:
+        """The blade, in real size."""
+
+    @property
+    def network(self) -> VeinNetwork:
+        """The veins, in real size."""
+
+    @property
+    def sources(self) -> SourceSet:
+        """The live sources, in real size."""

@@ -1,0 +1,95 @@
+"""Connections of a network: components, cycles, degrees and free ends."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vasc.arrays import Ids
+from vasc.network import Origin, VeinNetwork
+
+
+def component_labels(network: VeinNetwork) -> Ids:
+    """Give every node the number of the connected component it is in.
+
+    Parameters
+    ----------
+    network : VeinNetwork
+        Any network; it may be empty.
+
+    Returns
+    -------
+    ndarray of shape (n,), int32
+        Labels 0 ... c-1; a node without segments is a component of its own.
+    """
+    if network.n_nodes == 0:
+        return np.zeros(0, dtype=np.int32)
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    ends = network.segments.T
+    links = coo_array(
+        (np.ones(network.n_segments, dtype=np.int8), (ends[0], ends[1])),
+        shape=(network.n_nodes, network.n_nodes),
+    )
+    labels: Ids = connected_components(links, directed=False)[1]
+    return labels
+
+
+def count_components(network: VeinNetwork) -> int:
+    """Count the connected components; 0 for an empty network."""
+    return int(component_labels(network).max(initial=-1)) + 1
+
+
+def count_cycles(network: VeinNetwork, *, components: int | None = None) -> int:
+    """Count the independent cycles, m - n + c: 0 for trees.
+
+    Parameters
+    ----------
+    network : VeinNetwork
+        Any network; it may be empty.
+    components : int, optional
+        Its number of components, if known already.
+    """
+    components = count_components(network) if components is None else components
+    return network.n_segments - network.n_nodes + components
+
+
+def free_ends(network: VeinNetwork) -> Ids:
+    """Give the ids of the nodes where a vein ends blindly.
+
+    Parameters
+    ----------
+    network : VeinNetwork
+        Any network; it may be empty.
+
+    Returns
+    -------
+    ndarray of shape (k,), int32
+        Nodes with one segment that are not seeds, ascending.
+    """
+    is_end = (network.degrees == 1) & (network.origins != Origin.SEED)
+    return np.flatnonzero(is_end).astype(np.int32)
+
+
+def junctions(network: VeinNetwork) -> Ids:
+    """Give the ids of the nodes where three or more segments meet, ascending."""
+    return np.flatnonzero(network.degrees >= 3).astype(np.int32)
+
+
+def junction_degree(network: VeinNetwork) -> dict[int, float]:
+    """Give the share of junctions that each number of segments has.
+
+    Parameters
+    ----------
+    network : VeinNetwork
+        Any network; it may be empty.
+
+    Returns
+    -------
+    dict of int to float
+        Degrees from 3 on that occur, ascending, and their shares, which sum to
+        1; empty if there is no junction.
+    """
+    degrees: NDArray[np.int32] = network.degrees[junctions(network)]
+    values, counts = np.unique(degrees, return_counts=True)
+    shares = (counts / max(len(degrees), 1)).tolist()
+    return dict(zip(values.tolist(), shares, strict=True))

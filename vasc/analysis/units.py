@@ -1,0 +1,39 @@
+"""Real sizes: what one segment length is, for models that say so."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class LengthUnit:
+    """The unit that lengths are given in.
+
+    Parameters
+    ----------
+    name : str
+        Its name: ``"D"``, the segment length, or a real one such as ``"um"``.
+    per_segment : float
+        How many of it one segment length is.
+    """
+
+    name: str = "D"
+    per_segment: float = 1.0
+
+    @classmethod
+    def from_table(cls, units: Mapping[str, Any] | None) -> "LengthUnit":
+        """Read the ``[units]`` table of a config; without one, lengths stay in D.
+
+        Parameters
+        ----------
+        units : mapping, optional
+            ``{"length": "um", "segment": 4.0, ...}`` means that D is 4 um.
+        """
+        if not units or not units.get("length"):
+            return cls()
+        return cls(str(units["length"]), float(units.get("segment") or 1.0))
+
+    @property
+    def symbol(self) -> str:
+        """The name as it is printed beside a number."""
+        return "\N{MICRO SIGN}m" if self.name in ("um", "µm", "micrometer") else self.name

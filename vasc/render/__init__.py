@@ -1,0 +1,18 @@
+"""Timelines in, pictures and films out; matplotlib is loaded when something is drawn."""
+
+from vasc.render.animation import FILM_SUFFIXES, Film, animate
+from vasc.render.files import PICTURE_SUFFIXES, render, save
+from vasc.render.leaf import draw_leaf
+from vasc.render.styles import COLOR_CHOICES, LeafStyle
+
+__all__ = [
+    "COLOR_CHOICES",
+    "FILM_SUFFIXES",
+    "PICTURE_SUFFIXES",
+    "Film",
+    "LeafStyle",
+    "animate",
+    "draw_leaf",
+    "render",
+    "save",
+]

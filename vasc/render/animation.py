@@ -1,0 +1,220 @@
+"""Films of a growing leaf: mp4 or gif."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vasc.analysis.widths import WidthParameters
+from vasc.errors import OutputError, VascError
+from vasc.render.files import checked_output, open_run, widths_of
+from vasc.render.leaf import draw_leaf, fitted_widths, view_of
+from vasc.render.styles import DPI, LeafStyle
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from vasc.timeline import Timeline
+
+FILM_SUFFIXES = (".mp4", ".gif")
+Pixels = NDArray[np.uint8]
+"""A picture, shape (height, width, 3)."""
+
+
+@dataclass(frozen=True)
+class Film:
+    """How a film is made.
+
+    Parameters
+    ----------
+    n_pictures : int
+        Pictures to spread over the run.
+    pictures_per_second : int
+        Speed.
+    pixels : int
+        Longer side of the film.
+    rest : float
+        How long the last picture stays, in seconds.
+    """
+
+    n_pictures: int = 120
+    pictures_per_second: int = 20
+    pixels: int = 960
+    rest: float = 1.5
+
+
+def animate(
+    run: str | Path | Timeline,
+    output: str | Path,
+    *,
+    every: int | None = None,
+    color: str = "width",
+    widths: WidthParameters | None = None,
+    sources: bool = False,
+    scale_bar: bool = True,
+    style: LeafStyle | None = None,
+    film: Film | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Path:
+    """Write a film of a recorded leaf, seen at the scale of the last blade.
+
+    Parameters
+    ----------
+    run : path or Timeline
+        The recorded run.
+    output : path
+        The film; mp4 or gif by its suffix. An old one is replaced.
+    every : int, optional
+        Draw every so many steps; ``film.n_pictures`` spread evenly if left out.
+    color, sources, scale_bar, style
+        See :func:`vasc.render.draw_leaf`.
+    widths : WidthParameters, optional
+        The widths of the run's config if left out. Radii left open are fitted
+        to the last step and hold for the whole film.
+    film : Film, optional
+        Length, speed and size.
+    progress : callable, optional
+        Told after each picture how many are drawn, and of how many.
+
+    Returns
+    -------
+    Path
+        The file written.
+
+    Raises
+    ------
+    OutputError
+        If the suffix is none of these, the folder does not exist, or an mp4 is
+        asked for without the extra ``video``.
+    VascError
+        If ``color`` is none of the choices, or ``every`` is below 1.
+    TimelineError
+        If ``run`` is not a timeline.
+    """
+    output = checked_output(output, FILM_SUFFIXES)
+    film = Film() if film is None else film
+    style = LeafStyle() if style is None else style
+    if every is not None and every < 1:
+        raise VascError(f"every: {every} is below 1")
+    write = _write_mp4 if output.suffix.lower() == ".mp4" else _write_gif
+    with open_run(run) as timeline:
+        last = timeline.frame(-1)
+        view = view_of(last.blade, style, side=film.pixels / DPI)
+        settled = fitted_widths(last, widths or widths_of(timeline), style, view)
+        steps = chosen_steps(last.step, film.n_pictures, every)
+
+        def pictures() -> Iterator[Pixels]:
+            for count, step in enumerate(steps, start=1):
+                figure = draw_leaf(
+                    timeline.frame(step),
+                    color=color,
+                    widths=settled,
+                    sources=sources,
+                    scale_bar=scale_bar,
+                    units=timeline.units,
+                    style=style,
+                    view=view,
+                )
+                yield _pixels(figure)
+                if progress is not None:
+                    progress(count, len(steps))
+
+        write(pictures(), output, film)
+    return output
+
+
+def chosen_steps(last: int, n_pictures: int, every: int | None = None) -> list[int]:
+    """Choose the steps to draw: the first, the last, and an even spread between.
+
+    Parameters
+    ----------
+    last : int
+        The last recorded step.
+    n_pictures : int
+        Steps to choose, if ``every`` is left out.
+    every : int, optional
+        Distance between steps.
+
+    Returns
+    -------
+    list of int
+        Ascending; fewer than ``n_pictures`` if there are not so many.
+
+    Examples
+    --------
+    >>> chosen_steps(10, 4)
+    [0, 3, 7, 10]
+    >>> chosen_steps(10, 4, every=4)
+    [0, 4, 8, 10]
+    """
+    if every is not None:
+        return sorted({*range(0, last + 1, every), last})
+    return np.unique(np.rint(np.linspace(0, last, max(n_pictures, 2))).astype(int)).tolist()
+
+
+def _pixels(figure: Figure) -> Pixels:
+    """Draw a figure; width and height are cut to even numbers, as films need them."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    figure.set_dpi(DPI)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    picture = np.asarray(canvas.buffer_rgba())[:, :, :3]
+    return np.ascontiguousarray(picture[: len(picture) // 2 * 2, : picture.shape[1] // 2 * 2])
+
+
+def _write_mp4(pictures: Iterator[Pixels], output: Path, film: Film) -> None:
+    """Encode pictures as H.264, which every player and browser shows."""
+    try:
+        import imageio_ffmpeg
+    except ModuleNotFoundError as error:
+        raise OutputError(
+            f"{output}: mp4 needs imageio-ffmpeg: pip install 'vasc[video]', or write a gif"
+        ) from error
+    first = next(pictures)
+    unfinished = output.with_name(f".{output.stem}.unfinished.mp4")
+    writer = imageio_ffmpeg.write_frames(
+        str(unfinished),
+        (first.shape[1], first.shape[0]),
+        fps=film.pictures_per_second,
+        codec="libx264",
+        quality=8,
+        macro_block_size=2,
+        # one thread and no dates, so that equal runs give equal films
+        output_params=["-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact"],
+    )
+    writer.send(None)
+    try:
+        picture = first
+        writer.send(picture)
+        for picture in pictures:
+            writer.send(picture)
+        for _ in range(round(film.rest * film.pictures_per_second)):
+            writer.send(picture)
+        writer.close()
+        unfinished.replace(output)
+    finally:
+        writer.close()
+        unfinished.unlink(missing_ok=True)
+
+
+def _write_gif(pictures: Iterator[Pixels], output: Path, film: Film) -> None:
+    """Write pictures as a gif that repeats."""
+    from PIL import Image
+
+    small = [
+        Image.fromarray(picture).quantize(128, dither=Image.Dither.NONE) for picture in pictures
+    ]
+    pause = 1000 // film.pictures_per_second
+    pauses = [pause] * (len(small) - 1) + [pause + round(1000 * film.rest)]
+    unfinished = output.with_name(f".{output.stem}.unfinished.gif")
+    try:
+        small[0].save(unfinished, save_all=True, append_images=small[1:], duration=pauses, loop=0)
+        unfinished.replace(output)
+    finally:
+        unfinished.unlink(missing_ok=True)

@@ -1,0 +1,204 @@
+"""Pictures in files: png, svg and pdf, the same bytes for the same run."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from vasc.analysis.widths import WidthParameters
+from vasc.errors import OutputError, VascError
+from vasc.render.leaf import View, draw_leaf, fitted_widths, view_at, view_of
+from vasc.render.styles import DPI, INK, TEXT_SIZE, LeafStyle
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from vasc.timeline import Frame, Timeline
+
+PICTURE_SUFFIXES = (".png", ".svg", ".pdf")
+# no dates, no versions: equal runs give equal files
+_METADATA: dict[str, dict[str, None]] = {
+    ".png": {"Software": None},
+    ".svg": {"Date": None, "Creator": None},
+    ".pdf": {"CreationDate": None, "Creator": None, "Producer": None},
+}
+
+
+def render(
+    run: str | Path | Timeline,
+    output: str | Path,
+    step: int = -1,
+    *,
+    steps: Sequence[int] | None = None,
+    color: str = "width",
+    widths: WidthParameters | None = None,
+    sources: bool = False,
+    scale_bar: bool = True,
+    pixels: int = 1600,
+    style: LeafStyle | None = None,
+) -> Path:
+    """Write a picture of a recorded leaf.
+
+    Parameters
+    ----------
+    run : path or Timeline
+        The recorded run.
+    output : path
+        The picture; png, svg or pdf by its suffix. An old one is replaced.
+    step : int
+        The step to draw; -1 is the last.
+    steps : sequence of int, optional
+        Several steps, drawn side by side at one scale, instead of ``step``.
+    color, sources, scale_bar, style
+        See :func:`vasc.render.draw_leaf`.
+    widths : WidthParameters, optional
+        The widths of the run's config if left out.
+    pixels : int
+        Longer side of a single leaf in a png; an svg or pdf has the same proportions.
+
+    Returns
+    -------
+    Path
+        The file written.
+
+    Raises
+    ------
+    OutputError
+        If the suffix is none of these, or the folder does not exist.
+    VascError
+        If ``color`` is none of the choices, or a step was not recorded.
+    TimelineError
+        If ``run`` is not a timeline.
+    """
+    output = checked_output(output, PICTURE_SUFFIXES)
+    with open_run(run) as timeline:
+        widths = widths_of(timeline) if widths is None else widths
+        style = LeafStyle() if style is None else style
+        frames = [timeline.frame(at) for at in ([step] if steps is None else steps)]
+        if not frames:
+            raise VascError("steps: expected at least one step, got none")
+        views = _views(frames, style, pixels / DPI)
+        widths = fitted_widths(frames[-1], widths, style, views[-1])
+        figure, axes = _side_by_side(views, style)
+        for frame, view, ax in zip(frames, views, axes, strict=True):
+            draw_leaf(
+                frame,
+                ax,
+                color=color,
+                widths=widths,
+                sources=sources,
+                scale_bar=scale_bar and frame is frames[0],
+                units=timeline.units,
+                style=style,
+                view=view,
+            )
+            if len(frames) > 1:
+                ax.text(
+                    0.5,
+                    1.0,
+                    f"step {frame.step}",
+                    transform=ax.transAxes,
+                    ha="center",
+                    va="top",
+                    fontsize=TEXT_SIZE,
+                    color=INK,
+                )
+        save(figure, output)
+    return output
+
+
+def save(figure: Figure, output: str | Path) -> None:
+    """Write a figure as png, svg or pdf, without a date: equal figures give equal bytes.
+
+    Parameters
+    ----------
+    figure : Figure
+        What to write.
+    output : path
+        Where to; its suffix says as what.
+
+    Raises
+    ------
+    OutputError
+        If the suffix is none of these, or the folder does not exist.
+    """
+    from matplotlib import rc_context
+
+    output = checked_output(output, PICTURE_SUFFIXES)
+    kind = output.suffix.lower()
+    picture = io.BytesIO()
+    with rc_context({"svg.hashsalt": "vasc", "font.family": "DejaVu Sans"}):
+        figure.savefig(picture, format=kind[1:], dpi=DPI, metadata=_METADATA[kind])
+    # written in one go, so that no half picture is left behind
+    output.write_bytes(picture.getvalue())
+
+
+def checked_output(output: str | Path, suffixes: Sequence[str]) -> Path:
+    """Give a path that a picture can be written to.
+
+    Parameters
+    ----------
+    output : path
+        Where a picture is to go.
+    suffixes : sequence of str
+        What it may end in.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    OutputError
+        If the suffix is none of these, or the folder does not exist.
+    """
+    path = Path(output)
+    if path.suffix.lower() not in suffixes:
+        raise OutputError(f"{path}: suffix {path.suffix!r} is not one of {', '.join(suffixes)}")
+    if not path.parent.is_dir():
+        raise OutputError(f"{path}: folder {path.parent} does not exist")
+    return path
+
+
+@contextmanager
+def open_run(run: str | Path | Timeline) -> Iterator[Timeline]:
+    """Open a recorded run; one that is open already stays open afterwards."""
+    if not isinstance(run, str | Path):
+        yield run
+        return
+    from vasc.timeline import Timeline
+
+    with Timeline(run) as timeline:
+        yield timeline
+
+
+def widths_of(timeline: Timeline) -> WidthParameters:
+    """Give the widths that a run's config asks for."""
+    return WidthParameters.model_validate(timeline.config.get("widths") or {})
+
+
+def _views(frames: Sequence[Frame], style: LeafStyle, side: float) -> list[View]:
+    """Give views of one scale, at which the largest blade has the side asked for."""
+    scale = min(view_of(frame.blade, style, side=side).points_per_length for frame in frames)
+    return [view_at(frame.blade, style, scale) for frame in frames]
+
+
+def _side_by_side(views: Sequence[View], style: LeafStyle) -> tuple[Figure, list[Axes]]:
+    """Make a figure with one pair of axes a view, standing on one line."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    width = sum(view.inches[0] for view in views)
+    height = max(view.inches[1] for view in views)
+    figure = Figure(figsize=(width, height), facecolor=style.background)
+    FigureCanvasAgg(figure)
+    axes, left = [], 0.0
+    for view in views:
+        across, up = view.inches
+        axes.append(figure.add_axes((left / width, 0.0, across / width, up / height)))
+        left += across
+    return figure, axes

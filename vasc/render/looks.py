@@ -1,0 +1,233 @@
+"""What each vein looks like: its line width and its colour."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vasc.analysis.ancestry import Descent, grown_nodes
+from vasc.analysis.branches import branch_orders
+from vasc.analysis.widths import Pipes, WidthParameters
+from vasc.arrays import NULL, Floats
+from vasc.errors import VascError
+from vasc.network import SegmentKind, VeinNetwork
+from vasc.render.styles import (
+    AGE_COLORS,
+    COLOR_CHOICES,
+    KIND_COLORS,
+    ORDER_COLORS,
+    SOURCE_COLORS,
+    STATE_COLORS,
+    LeafStyle,
+)
+
+AGE_CLASSES = 64
+
+
+@dataclass(frozen=True)
+class Scale:
+    """How large a picture is and how dense its veins are.
+
+    Parameters
+    ----------
+    points_per_length : float
+        Scale of the drawing, pt per D.
+    picture_side : float
+        Longer side of the picture, in pt.
+    spacing : float
+        Mean distance between veins, in D.
+    """
+
+    points_per_length: float
+    picture_side: float
+    spacing: float
+
+
+@dataclass(frozen=True)
+class Key:
+    """What the colours of a picture mean.
+
+    Parameters
+    ----------
+    title : str
+        What is coloured; empty if there is nothing to explain.
+    labels : tuple of str
+        Meanings, one for every colour; for a gradient its first and last.
+    colors : tuple of str
+        Colours in the same order.
+    is_gradient : bool
+        Whether the colours run into each other.
+    """
+
+    title: str = ""
+    labels: tuple[str, ...] = ()
+    colors: tuple[str, ...] = ()
+    is_gradient: bool = False
+
+
+@dataclass(frozen=True)
+class Coloring:
+    """A colour for every segment.
+
+    Parameters
+    ----------
+    classes : ndarray of shape (m,), int64
+        Row of ``palette`` for every segment.
+    palette : tuple of str
+        Colours.
+    key : Key
+        What they mean.
+    """
+
+    classes: NDArray[np.int64]
+    palette: tuple[str, ...]
+    key: Key
+
+
+def fit_widths(
+    most: float, parameters: WidthParameters, style: LeafStyle, scale: Scale
+) -> WidthParameters:
+    """Settle the radii that were left open, so that the widths suit a picture.
+
+    Parameters
+    ----------
+    most : float
+        The most veinlets that any node of the network serves.
+    parameters : WidthParameters
+        A radius given there is kept: veins are then drawn to scale.
+    style : LeafStyle
+        Limits for what is left open.
+    scale : Scale
+        Size of the picture.
+
+    Returns
+    -------
+    WidthParameters
+        With ``tip_radius`` and ``exponent`` for all veins, in this picture and
+        in others of the same run.
+    """
+    low, high = style.finest
+    finest = min(max(style.finest_share * scale.spacing * scale.points_per_length, low), high)
+    tip = parameters.tip_radius or finest / 2.0 / scale.points_per_length
+    exponent = parameters.exponent
+    base = parameters.base_radius
+    if base is None and parameters.tip_radius is None:
+        thickest = style.thickest_share * scale.picture_side / 2.0 / scale.points_per_length
+        base = min(tip * most ** (1.0 / exponent), max(thickest, tip))
+    if base is not None and most > 1.0:
+        # N veinlets make a vein of r0 N^(1/n): the n that makes the base as thick as asked
+        exponent = math.log(most) / max(math.log(base / tip), 1e-9)
+    return parameters.model_copy(
+        update={"tip_radius": tip, "base_radius": None, "exponent": exponent}
+    )
+
+
+def width_classes(widths: Floats, n_classes: int) -> tuple[NDArray[np.int64], Floats]:
+    """Group widths into classes of one ratio.
+
+    Parameters
+    ----------
+    widths : ndarray of shape (m,), float64
+        Line widths, above 0.
+    n_classes : int
+        Classes at most.
+
+    Returns
+    -------
+    classes : ndarray of shape (m,), int64
+        0 for the finest.
+    class_widths : ndarray of shape (n_classes,), float64
+        The width of each class, rising from the finest to the thickest.
+    """
+    low, high = float(widths.min(initial=np.inf)), float(widths.max(initial=0.0))
+    if len(widths) == 0 or high <= low:
+        return np.zeros(len(widths), dtype=np.int64), np.array([high])
+    class_widths = np.geomspace(low, high, n_classes)
+    places = np.log(widths / low) / np.log(high / low) * (n_classes - 1)
+    return np.rint(places).astype(np.int64), class_widths
+
+
+def color_segments(
+    network: VeinNetwork, color: str, directions: Descent, counted: Pipes, style: LeafStyle
+) -> Coloring:
+    """Choose a colour for every segment.
+
+    Parameters
+    ----------
+    network : VeinNetwork
+        The veins.
+    color : {"width", "order", "age", "source", "kind", "state"}
+        What colours tell: nothing beyond the width; the order of branching (see
+        :func:`vasc.analysis.branch_orders`); the step of birth; the source that
+        caused the vein; extension, join or refinement; differentiation.
+    directions, counted
+        The network's descent and pipes.
+    style : LeafStyle
+        The colour of plain veins.
+
+    Returns
+    -------
+    Coloring
+
+    Raises
+    ------
+    VascError
+        If ``color`` is none of these.
+    """
+    if color == "width":
+        plain = np.zeros(network.n_segments, dtype=np.int64)
+        return Coloring(plain, (style.vein,), Key())
+    if color == "order":
+        return _by_order(network, directions, counted)
+    if color == "age":
+        return _by_age(network, directions)
+    if color == "source":
+        causes = network.causes[grown_nodes(network, directions)].astype(np.int64)
+        palette = (*SOURCE_COLORS, style.vein)
+        classes = np.where(causes == NULL, len(SOURCE_COLORS), causes % len(SOURCE_COLORS))
+        return Coloring(classes, palette, Key())
+    if color == "kind":
+        names = tuple(kind.name.lower() for kind in SegmentKind)
+        colors = tuple(KIND_COLORS[name] for name in names)
+        shown = [int(kind) for kind in SegmentKind if (network.segment_kinds == kind).any()]
+        key = Key("segment", tuple(names[k] for k in shown), tuple(colors[k] for k in shown))
+        return Coloring(network.segment_kinds.astype(np.int64), colors, key)
+    if color == "state":
+        colors = tuple(STATE_COLORS.values())
+        classes = np.zeros(network.n_segments, dtype=np.int64)
+        return Coloring(classes, colors, Key("state", tuple(STATE_COLORS), colors))
+    raise VascError(f"color: {color!r} is not one of {', '.join(COLOR_CHOICES)}")
+
+
+def _by_order(network: VeinNetwork, directions: Descent, counted: Pipes) -> Coloring:
+    """Colour by order of branching, all orders from the last colour on alike."""
+    orders = branch_orders(network, counted=counted, directions=directions)
+    n_colors = len(ORDER_COLORS)
+    n_shown = min(int(orders.max(initial=1)), n_colors)
+    labels = [str(order) for order in range(1, n_shown + 1)]
+    if n_shown == n_colors:
+        labels[-1] += "+"
+    key = Key("branch order", tuple(labels), ORDER_COLORS[:n_shown])
+    return Coloring(np.minimum(orders, n_colors).astype(np.int64) - 1, ORDER_COLORS, key)
+
+
+def _by_age(network: VeinNetwork, directions: Descent) -> Coloring:
+    """Colour by the step at which each vein grew."""
+    births = network.births[grown_nodes(network, directions)].astype(np.float64)
+    first, last = births.min(initial=np.inf), births.max(initial=0.0)
+    first = min(first, last)
+    span = max(last - first, 1.0)
+    classes = np.rint((births - first) / span * (AGE_CLASSES - 1)).astype(np.int64)
+    key = Key("step of birth", (f"{first:.0f}", f"{last:.0f}"), AGE_COLORS, is_gradient=True)
+    return Coloring(classes, gradient(AGE_COLORS, AGE_CLASSES), key)
+
+
+def gradient(colors: tuple[str, ...], n_colors: int) -> tuple[str, ...]:
+    """Give ``n_colors`` colours that run evenly through the given ones."""
+    stops = np.array([[int(color[i : i + 2], 16) for i in (1, 3, 5)] for color in colors])
+    places = np.linspace(0.0, len(colors) - 1.0, n_colors)
+    mixed = np.stack(
+        [np.interp(places, np.arange(len(colors)), channel) for channel in stops.T], axis=1
+    )
+    return tuple("#{:02x}{:02x}{:02x}".format(*row) for row in np.rint(mixed).astype(int).tolist())
