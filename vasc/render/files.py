@@ -6,7 +6,7 @@ import io
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from vasc.analysis.widths import WidthParameters
 from vasc.errors import OutputError, VascError
@@ -20,6 +20,15 @@ if TYPE_CHECKING:
     from vasc.timeline import Frame, Timeline
 
 PICTURE_SUFFIXES = (".png", ".svg", ".pdf")
+# what a user's matplotlibrc might change in a picture
+_SETTINGS: dict[str, Any] = {
+    "svg.hashsalt": "vasc",
+    "svg.fonttype": "path",
+    "font.family": "DejaVu Sans",
+    "savefig.bbox": None,
+    "savefig.transparent": False,
+    "savefig.facecolor": "auto",
+}
 # no dates, no versions: equal runs give equal files
 _METADATA: dict[str, dict[str, None]] = {
     ".png": {"Software": None},
@@ -131,7 +140,7 @@ def save(figure: Figure, output: str | Path) -> None:
     output = checked_output(output, PICTURE_SUFFIXES)
     kind = output.suffix.lower()
     picture = io.BytesIO()
-    with rc_context({"svg.hashsalt": "vasc", "font.family": "DejaVu Sans"}):
+    with rc_context(_SETTINGS):
         figure.savefig(picture, format=kind[1:], dpi=DPI, metadata=_METADATA[kind])
     # written in one go, so that no half picture is left behind
     output.write_bytes(picture.getvalue())
