@@ -70,6 +70,8 @@ class State:
         Ids of the live sources, ascending.
     tables : Tables
         The shared tables.
+    index : object
+        What the model needs to go on from here.
     is_finished : bool
         True when the model has nothing left to do.
     """
@@ -82,6 +84,7 @@ class State:
     counts: tuple[int, ...]
     live: Ids
     tables: Tables = field(repr=False)
+    index: object = field(repr=False, default=None)
     is_finished: bool = False
 
     def n_rows(self, table: str) -> int:

@@ -65,7 +65,7 @@ def tag_and_wait(
             if n_members == 0 or perceived.distances[s, 0] >= kill:
                 continue
             tags.step[s] = step
-            if perceived.is_changed[s]:
+            if perceived.change[s] != 0:
                 tags.n_nodes[s] = perceived.n_previous[s]
                 tags.nodes[s] = perceived.previous[s]
             else:

@@ -123,7 +123,7 @@ def live_within(
 def throw(
     darts: NDArray[np.float64],
     outline: EdgeGrid,
-    to_outline: float,
+    outline_size: float,
     node_grid: HashGrid,
     nodes: NDArray[np.float64],
     source_grid: HashGrid,
@@ -141,8 +141,8 @@ def throw(
         Candidate positions, in material units.
     outline : EdgeGrid
         The initial outline.
-    to_outline : float
-        Factor from material units to the initial outline's.
+    outline_size : float
+        Size of the outline in material coordinates, 1 for the initial outline.
     node_grid, nodes, source_grid, sources, is_live
         Veins and sources there are; accepted darts are added to the last three,
         which must have room for them.
@@ -158,7 +158,7 @@ def throw(
     """
     for d in range(len(darts)):
         x, y = darts[d, 0], darts[d, 1]
-        if not is_inside(outline, x * to_outline, y * to_outline):
+        if not is_inside(outline, x / outline_size, y / outline_size):
             continue
         if live_within(source_grid, sources, is_live, x, y, source_limit):
             continue
@@ -170,3 +170,21 @@ def throw(
         insert(source_grid, sources, n_sources, n_sources + 1)
         n_sources += 1
     return n_sources
+
+
+@njit(cache=True)
+def keep_apart(
+    points: NDArray[np.float64], grid: HashGrid, limit: float
+) -> NDArray[np.int64]:
+    """Go through points in order and keep each that is farther than ``limit`` (squared) from all.
+
+    ``grid`` must be empty and have room for all points.
+    """
+    kept = np.empty(len(points), dtype=np.int64)
+    n_kept = 0
+    for d in range(len(points)):
+        if not any_within(grid, points, points[d, 0], points[d, 1], limit):
+            insert(grid, points, d, d + 1)
+            kept[n_kept] = d
+            n_kept += 1
+    return kept[:n_kept]

@@ -86,24 +86,35 @@ def cell_of(value: float, low: float, side: float, n_cells: int) -> int:
 
 
 @njit(cache=True)
+def _insert_one(grid: HashGrid, points: NDArray[np.float64], point: int) -> None:
+    """Put one point into its cell and mark the cells above."""
+    columns, rows = grid.shapes[0, 0], grid.shapes[0, 1]
+    column = cell_of(points[point, 0], grid.corner[0], grid.corner[2], columns)
+    row = cell_of(points[point, 1], grid.corner[1], grid.corner[2], rows)
+    cell = row * columns + column
+    grid.following[point] = grid.head[cell]
+    grid.head[cell] = point
+    for level in range(grid.shapes.shape[0]):
+        cell = grid.shapes[level, 2] + row * grid.shapes[level, 0] + column
+        if grid.occupied[cell] != 0:
+            break
+        grid.occupied[cell] = 1
+        row >>= 1
+        column >>= 1
+
+
+@njit(cache=True)
 def insert(grid: HashGrid, points: NDArray[np.float64], start: int, stop: int) -> None:
     """Put the points ``start`` to ``stop`` into the grid."""
-    n_levels = grid.shapes.shape[0]
-    columns, rows = grid.shapes[0, 0], grid.shapes[0, 1]
-    x0, y0, side = grid.corner[0], grid.corner[1], grid.corner[2]
     for point in range(start, stop):
-        column = cell_of(points[point, 0], x0, side, columns)
-        row = cell_of(points[point, 1], y0, side, rows)
-        cell = row * columns + column
-        grid.following[point] = grid.head[cell]
-        grid.head[cell] = point
-        for level in range(n_levels):
-            cell = grid.shapes[level, 2] + row * grid.shapes[level, 0] + column
-            if grid.occupied[cell] != 0:
-                break
-            grid.occupied[cell] = 1
-            row >>= 1
-            column >>= 1
+        _insert_one(grid, points, point)
+
+
+@njit(cache=True)
+def insert_chosen(grid: HashGrid, points: NDArray[np.float64], chosen: NDArray[np.int32]) -> None:
+    """Put some points into the grid, given by their ids."""
+    for point in chosen:
+        _insert_one(grid, points, point)
 
 
 @njit(cache=True)

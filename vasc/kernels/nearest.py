@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from vasc.kernels.blocks import blocks_of
 from vasc.kernels.hash_grid import HashGrid, box_distance, nearest, squared_distance
-from vasc.kernels.perceived import Perceived
+from vasc.kernels.perceived import OTHER_VEINS, SAME_VEINS, Perceived
 
 
 @njit(cache=True)
@@ -14,15 +14,14 @@ def perceive_new(
     grid: HashGrid,
     nodes: NDArray[np.float64],
     sources: NDArray[np.float64],
-    start: int,
-    stop: int,
+    chosen: NDArray[np.int32],
     perceived: Perceived,
 ) -> None:
-    """Find the nearest nodes of the sources ``start`` to ``stop`` from nothing."""
-    for s in range(start, stop):
+    """Find the nearest nodes of the chosen sources from nothing."""
+    for s in chosen:
         v, distance = nearest(grid, nodes, sources[s, 0], sources[s, 1])
         perceived.n_members[s] = 0
-        perceived.is_changed[s] = 1
+        perceived.change[s] = OTHER_VEINS
         if v >= 0:
             perceived.members[s, 0] = v
             perceived.distances[s, 0] = distance
@@ -64,7 +63,11 @@ def update(
                 s = blocks.order[k]
                 distance = squared_distance(cx, cy, sources[s, 0], sources[s, 1])
                 if distance < perceived.distances[s, 0]:
+                    if parents[c] == perceived.members[s, 0]:
+                        change = SAME_VEINS
+                    else:
+                        change = OTHER_VEINS
+                    perceived.change[s] = max(perceived.change[s], change)
                     perceived.distances[s, 0] = distance
                     perceived.members[s, 0] = c
                     perceived.n_members[s] = 1
-                    perceived.is_changed[s] = 1

@@ -9,6 +9,14 @@ from numpy.typing import NDArray
 MAX_MEMBERS = 8
 """A relative neighbourhood in the plane has at most six members, seven with a node on the source."""
 
+NO_CHANGE = 0
+SAME_VEINS = 1
+"""Members gave way to their own children: the veins are the same, one segment longer."""
+OTHER_VEINS = 2
+"""A vein came or went."""
+NEVER = 3
+"""Above every change."""
+
 
 class Perceived(NamedTuple):
     """Per source (row = source id): the perceiving nodes, nearest first."""
@@ -19,10 +27,10 @@ class Perceived(NamedTuple):
     """Their squared distances, in material units, shape (capacity, 8)."""
     n_members: NDArray[np.int8]
     """How many there are, shape (capacity,)."""
-    is_changed: NDArray[np.uint8]
-    """1 if the set differs from the one last recorded, shape (capacity,)."""
+    change: NDArray[np.uint8]
+    """How the set differs from what it was when last taken, shape (capacity,)."""
     previous: NDArray[np.int32]
-    """The set before the latest change, valid where ``is_changed``, shape (capacity, 8)."""
+    """The set before the latest change, valid where ``change`` is not 0, shape (capacity, 8)."""
     n_previous: NDArray[np.int8]
     """How many were in it, shape (capacity,)."""
 
@@ -33,7 +41,7 @@ def perceived(capacity: int) -> Perceived:
         members=np.full((capacity, MAX_MEMBERS), -1, dtype=np.int32),
         distances=np.full((capacity, MAX_MEMBERS), np.inf),
         n_members=np.zeros(capacity, dtype=np.int8),
-        is_changed=np.zeros(capacity, dtype=np.uint8),
+        change=np.zeros(capacity, dtype=np.uint8),
         previous=np.full((capacity, MAX_MEMBERS), -1, dtype=np.int32),
         n_previous=np.zeros(capacity, dtype=np.int8),
     )
@@ -48,11 +56,11 @@ def enlarged(old: Perceived, capacity: int) -> Perceived:
 
 
 @njit(cache=True)
-def count_changed(live: NDArray[np.int32], perceived: Perceived) -> int:
+def count_changed(live: NDArray[np.int32], perceived: Perceived, least: int) -> int:
     """Count the pairs that :func:`take_changed` will write."""
     n_pairs = 0
     for s in live:
-        if perceived.is_changed[s]:
+        if perceived.change[s] >= least:
             n_pairs += perceived.n_members[s]
     return n_pairs
 
@@ -61,16 +69,17 @@ def count_changed(live: NDArray[np.int32], perceived: Perceived) -> int:
 def take_changed(
     live: NDArray[np.int32],
     perceived: Perceived,
+    least: int,
     sources: NDArray[np.int32],
     nodes: NDArray[np.int32],
     start: int,
 ) -> None:
-    """Write the sets that changed as (source, node) rows from ``start`` on; they count as taken."""
+    """Write the sets with at least that change as (source, node) rows; all count as taken."""
     row = start
     for s in live:
-        if perceived.is_changed[s]:
-            perceived.is_changed[s] = 0
+        if perceived.change[s] >= least:
             for k in range(perceived.n_members[s]):
                 sources[row] = s
                 nodes[row] = perceived.members[s, k]
                 row += 1
+        perceived.change[s] = NO_CHANGE

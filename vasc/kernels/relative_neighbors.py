@@ -11,7 +11,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from vasc.kernels.blocks import Blocks, box_far_distance
+from vasc.kernels.blocks import blocks_of, box_far_distance
 from vasc.kernels.hash_grid import (
     HashGrid,
     _push_children,
@@ -21,7 +21,7 @@ from vasc.kernels.hash_grid import (
     push_root,
     squared_distance,
 )
-from vasc.kernels.perceived import MAX_MEMBERS, Perceived
+from vasc.kernels.perceived import MAX_MEMBERS, OTHER_VEINS, SAME_VEINS, Perceived
 
 MAX_CANDIDATES = 4096
 MAX_VISITED = 64
@@ -172,13 +172,12 @@ def perceive_new(
     grid: HashGrid,
     nodes: NDArray[np.float64],
     sources: NDArray[np.float64],
-    start: int,
-    stop: int,
+    chosen: NDArray[np.int32],
     perceived: Perceived,
 ) -> None:
-    """Find the relative neighbourhoods of the sources ``start`` to ``stop`` from nothing."""
+    """Find the relative neighbourhoods of the chosen sources from nothing."""
     visited = np.empty(MAX_VISITED, dtype=np.int32)
-    for s in range(start, stop):
+    for s in chosen:
         x, y = sources[s, 0], sources[s, 1]
         n_members = 0
         n_visited = 0
@@ -193,13 +192,14 @@ def perceive_new(
                 perceived.distances[s, n_members] = distance
                 n_members += 1
         perceived.n_members[s] = n_members
-        perceived.is_changed[s] = 1
+        perceived.change[s] = OTHER_VEINS
 
 
 @njit(cache=True)
 def _absorb(
     grid: HashGrid,
     nodes: NDArray[np.float64],
+    parents: NDArray[np.int32],
     x: float,
     y: float,
     s: int,
@@ -207,13 +207,13 @@ def _absorb(
     candidates: NDArray[np.int32],
     distances: NDArray[np.float64],
     n_candidates: int,
+    kept: NDArray[np.int32],
+    kept_distances: NDArray[np.float64],
 ) -> None:
     """Bring one neighbourhood up to date with the new nodes that may matter to it."""
     n_old = perceived.n_members[s]
-    kept = np.empty(MAX_MEMBERS, dtype=np.int32)
-    kept_distances = np.empty(MAX_MEMBERS)
     n_kept = 0
-    is_changed = False
+    n_inherited = 0
     for k in range(n_old):
         v = perceived.members[s, k]
         v_distance = perceived.distances[s, k]
@@ -225,12 +225,11 @@ def _absorb(
                 if excludes(c, distances[j], v, v_distance, between):
                     is_excluded = True
                     break
-        if is_excluded:
-            is_changed = True
-        else:
+        if not is_excluded:
             kept[n_kept] = v
             kept_distances[n_kept] = v_distance
             n_kept += 1
+    n_staying = n_kept
     for j in range(n_candidates):
         c = candidates[j]
         c_distance = distances[j]
@@ -261,7 +260,8 @@ def _absorb(
         # nothing at all is nearer than the nearest, hence nothing can exclude it
         if not is_nearest and lune_witness(grid, nodes, x, y, c, c_distance) >= 0:
             continue
-        is_changed = True
+        for k in range(n_old):
+            n_inherited += perceived.members[s, k] == parents[c]
         place = n_kept
         while place > 0 and kept_distances[place - 1] > c_distance:
             kept[place] = kept[place - 1]
@@ -270,15 +270,21 @@ def _absorb(
         kept[place] = c
         kept_distances[place] = c_distance
         n_kept += 1
-    if not is_changed:
+    if n_kept == n_staying and n_staying == n_old:
         return
-    perceived.previous[s] = perceived.members[s]
+    n_new = n_kept - n_staying
+    if n_new == n_old - n_staying and n_inherited == n_new:
+        change = SAME_VEINS
+    else:
+        change = OTHER_VEINS
+    perceived.change[s] = max(perceived.change[s], change)
+    for k in range(n_old):
+        perceived.previous[s, k] = perceived.members[s, k]
     perceived.n_previous[s] = n_old
     for k in range(n_kept):
         perceived.members[s, k] = kept[k]
         perceived.distances[s, k] = kept_distances[k]
     perceived.n_members[s] = n_kept
-    perceived.is_changed[s] = 1
 
 
 @njit(cache=True)
@@ -330,36 +336,40 @@ def _candidates_of_source(
     s: int,
     perceived: Perceived,
     offered: NDArray[np.int32],
+    offered_points: NDArray[np.float64],
     n_offered: int,
     candidates: NDArray[np.int32],
     distances: NDArray[np.float64],
 ) -> int:
     """List the offered nodes that no cheap test rules out for one source; gives their number."""
     n_members = perceived.n_members[s]
-    reach = -1.0
-    first_x = first_y = first_distance = 0.0
+    reach = np.inf
+    first_x = first_y = first_distance = np.inf
     if n_members > 0:
         reach = perceived.distances[s, n_members - 1]
         first = perceived.members[s, 0]
         first_distance = perceived.distances[s, 0]
         first_x, first_y = nodes[first, 0], nodes[first, 1]
-    n_candidates = 0
+    # Written without branches, for this is where most of the time goes. Beyond the
+    # reach a node matters only if nothing excludes it; the nearest member often does.
+    n_free = 0
     for k in range(n_offered):
-        c = offered[k]
-        cx, cy = nodes[c, 0], nodes[c, 1]
+        cx, cy = offered_points[k, 0], offered_points[k, 1]
         distance = squared_distance(cx, cy, x, y)
-        if distance > reach and n_members > 0:
-            # no member is farther, so that the node matters only if nothing excludes it
-            if first_distance < distance and (
-                squared_distance(first_x, first_y, cx, cy) < distance
-            ):
-                continue
+        to_first = squared_distance(first_x, first_y, cx, cy)
+        candidates[n_free] = offered[k]
+        distances[n_free] = distance
+        n_free += (distance <= reach) | (to_first >= distance) | (first_distance >= distance)
+    n_candidates = 0
+    for k in range(n_free):
+        c = candidates[k]
+        distance = distances[k]
+        if distance > reach:
             p = parents[c]
             if p >= 0:
                 px, py = nodes[p, 0], nodes[p, 1]
-                if squared_distance(px, py, x, y) < distance and (
-                    squared_distance(px, py, cx, cy) < distance
-                ):
+                between = squared_distance(px, py, nodes[c, 0], nodes[c, 1])
+                if squared_distance(px, py, x, y) < distance and between < distance:
                     continue
         candidates[n_candidates] = c
         distances[n_candidates] = distance
@@ -386,8 +396,11 @@ def update(
         return
     blocks = blocks_of(sources, live)
     offered = np.empty(stop - start, dtype=np.int32)
+    offered_points = np.empty((stop - start, 2))
     candidates = np.empty(stop - start, dtype=np.int32)
     distances = np.empty(stop - start)
+    kept = np.empty(MAX_MEMBERS, dtype=np.int32)
+    kept_distances = np.empty(MAX_MEMBERS)
     witnesses = np.empty(3, dtype=np.int32)
     for b in range(len(blocks.starts) - 1):
         first, last = blocks.starts[b], blocks.starts[b + 1]
@@ -410,13 +423,37 @@ def update(
         )
         if n_offered == 0:
             continue
+        for k in range(n_offered):
+            offered_points[k, 0] = nodes[offered[k], 0]
+            offered_points[k, 1] = nodes[offered[k], 1]
         for k in range(first, last):
             s = blocks.order[k]
             x, y = sources[s, 0], sources[s, 1]
             n_candidates = _candidates_of_source(
-                nodes, parents, x, y, s, perceived, offered, n_offered, candidates, distances
+                nodes,
+                parents,
+                x,
+                y,
+                s,
+                perceived,
+                offered,
+                offered_points,
+                n_offered,
+                candidates,
+                distances,
             )
             if n_candidates > 0:
                 _absorb(
-                    grid, nodes, x, y, s, perceived, candidates, distances, n_candidates
+                    grid,
+                    nodes,
+                    parents,
+                    x,
+                    y,
+                    s,
+                    perceived,
+                    candidates,
+                    distances,
+                    n_candidates,
+                    kept,
+                    kept_distances,
                 )

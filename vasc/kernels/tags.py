@@ -76,3 +76,18 @@ def is_pulled(
     if tags.step[s] < 0:
         return True
     return is_tagged(tags, s, perceived.members[s, k], parents, births)
+
+
+@njit(cache=True)
+def retag(
+    tags: Tags,
+    steps: NDArray[np.int32],
+    sources: NDArray[np.int32],
+    nodes: NDArray[np.int32],
+) -> None:
+    """Put recorded tags back: row by row, a step, a source and a node it tagged."""
+    for row in range(len(steps)):
+        s = sources[row]
+        tags.step[s] = steps[row]
+        tags.nodes[s, tags.n_nodes[s]] = nodes[row]
+        tags.n_nodes[s] += 1

@@ -1,0 +1,170 @@
+"""What a model is, and what the configs of the leaf models have in common."""
+
+from abc import ABC, abstractmethod
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from vasc.domain import BladeParameters
+from vasc.growth import IsogonicParameters, MarginalParameters, NoGrowthParameters
+from vasc.models.arrival import ArrivalParameters
+from vasc.models.extension import ExtensionParameters
+from vasc.models.refinement import NoRefinementParameters, SubdivisionParameters
+from vasc.parameters import Parameters, quantity
+from vasc.placement import DartParameters, GivenParameters
+from vasc.state import State, Tables
+from vasc.streams import Streams
+
+
+class Model(ABC):
+    """A model makes states: an initial one, and from each the next."""
+
+    @abstractmethod
+    def initial_state(self, streams: Streams) -> State:
+        """Give the state before the first step."""
+
+    @abstractmethod
+    def advance(self, state: State, streams: Streams) -> State:
+        """Give the state one step later."""
+
+    @abstractmethod
+    def restore(self, tables: Tables, step: int, streams: Streams) -> State:
+        """Give the state that a record describes, ready to go on to the same bytes."""
+
+    def is_finished(self, state: State) -> bool:
+        """Tell whether nothing is left to do."""
+        return state.is_finished
+
+
+AnyGrowth = Annotated[
+    NoGrowthParameters | MarginalParameters | IsogonicParameters, Field(discriminator="kind")
+]
+AnyPlacement = Annotated[DartParameters | GivenParameters, Field(discriminator="kind")]
+AnyRefinement = Annotated[
+    NoRefinementParameters | SubdivisionParameters, Field(discriminator="kind")
+]
+
+
+class StopParameters(Parameters):
+    """When a run ends at the latest."""
+
+    steps: int | None = quantity(
+        "Last step; by default a run ends when growth, placement and extension do.",
+        unit="steps",
+        default=None,
+        ge=1,
+    )
+
+
+class RecordParameters(Parameters):
+    """What the timeline holds besides what it always does."""
+
+    perceived: Literal["veins", "nodes", "none"] = quantity(
+        "When the set of nodes that a source attracts is recorded: when a vein enters or leaves"
+        " it ('veins'), also when a vein in it merely extends ('nodes', most of a large file),"
+        " or never ('none').",
+        default="veins",
+    )
+
+    @property
+    def least_change(self) -> int:
+        """The least change that is recorded, see :mod:`vasc.kernels.perceived`."""
+        return {"nodes": 1, "veins": 2, "none": 3}[self.perceived]
+
+
+class UnitParameters(Parameters):
+    """Real units, if the config's D and step stand for some."""
+
+    length: str = quantity("Unit of length, for example 'um'.", default="um", min_length=1)
+    segment: float = quantity("One D in that unit.", default=1.0, gt=0.0)
+    time: str = quantity("Unit of time, for example 'h'.", default="step", min_length=1)
+    step: float = quantity("One step in that unit.", default=1.0, gt=0.0)
+
+
+class PrintedParameters(Parameters):
+    """What a paper prints, beside the reading of it that is run."""
+
+    table: str | None = quantity("Where the values are printed.", default=None)
+    values: dict[str, str] = quantity("The values as printed.", default={})
+    reading: str | None = quantity("How they were read, and why.", default=None)
+
+
+class Venation(Parameters):
+    """What the configs of open and closed leaf venation have in common."""
+
+    title: str = quantity("One sentence on the experiment.", default="")
+    reference: str = quantity("The figure or paper it follows.", default="")
+    seed: int = quantity("Seed of all randomness.", default=1, ge=0, lt=2**63)
+    domain: BladeParameters
+    growth: AnyGrowth = quantity("How the blade grows.", default=NoGrowthParameters())
+    placement: AnyPlacement = quantity("Where sources appear.")
+    extension: ExtensionParameters = quantity(
+        "How veins extend.", default=ExtensionParameters()
+    )
+    arrival: ArrivalParameters = quantity("When sources are reached.")
+    refinement: AnyRefinement = quantity(
+        "What becomes of stretched segments.", default=NoRefinementParameters()
+    )
+    stop: StopParameters = quantity("When the run ends.", default=StopParameters())
+    record: RecordParameters = quantity("What is recorded.", default=RecordParameters())
+    units: UnitParameters | None = quantity("Real units.", default=None)
+    printed: PrintedParameters | None = quantity("Values as printed.", default=None)
+
+    @model_validator(mode="after")
+    def _check_kill_distance(self) -> "Venation":
+        """Refuse kill distances that veins step over (they would livelock)."""
+        kill, length = self.arrival.kill_distance, self.extension.segment_length
+        if kill < length:
+            raise ValueError(
+                f"arrival.kill_distance is {kill:g}; it must be at least"
+                f" extension.segment_length ({length:g}): with a shorter one veins step over"
+                " sources and never reach them"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _check_growth(self) -> "Venation":
+        """Refuse a blade that would have to shrink, and placements that need marginal growth."""
+        growth, placement = self.growth, self.placement
+        if not isinstance(growth, NoGrowthParameters) and (
+            growth.final_length < self.domain.length
+        ):
+            raise ValueError(
+                f"growth.final_length is {growth.final_length:g}; it must be at least"
+                f" domain.length ({self.domain.length:g})"
+            )
+        if (
+            isinstance(placement, DartParameters)
+            and placement.reading == "largest_blade"
+            and not isinstance(growth, MarginalParameters)
+        ):
+            raise ValueError(
+                "placement.reading is 'largest_blade'; it needs growth.kind = 'marginal',"
+                " where places in the blade stay (section 4.2.3)"
+            )
+        return self
+
+    def parts(self, folder: Path) -> dict[str, object]:
+        """Give the parts of the sentence that do not depend on the kind of venation."""
+        growth = self.growth.growth(self.domain.blade(folder))
+        kill, length = self.arrival.kill_distance, self.extension.segment_length
+        placement = self.placement
+        if isinstance(placement, DartParameters):
+            birth_distance = placement.birth_distance_veins
+            placed = placement.placement(growth, kill)
+        else:
+            birth_distance = float("inf")
+            placed = placement.placement(growth, folder)
+        return {
+            "growth": growth,
+            "placement": placed,
+            "extension": self.extension.extension(growth),
+            "refinement": self.refinement.refinement(growth, birth_distance, length),
+            "last_step": self.stop.steps,
+            "least_change": self.record.least_change,
+        }
+
+    @abstractmethod
+    def model(self, folder: Path = Path()) -> Model:
+        """Give the model; files are looked for in ``folder``."""

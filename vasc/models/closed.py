@@ -1,0 +1,32 @@
+"""Closed venation: veins that meet at sources and form loops (Runions 2008, section 4.3)."""
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from vasc.models.arrival import TaggedArrival
+from vasc.models.base import Venation
+from vasc.models.colonization import Colonization
+from vasc.models.perception import RelativeParameters, UrquhartParameters
+from vasc.parameters import quantity
+
+AnyPerception = Annotated[RelativeParameters | UrquhartParameters, Field(discriminator="kind")]
+
+
+class ClosedVenation(Venation):
+    """Each source attracts its relative neighbours and dies when all awaited have arrived."""
+
+    kind: Literal["closed"] = "closed"
+    perception: AnyPerception = quantity(
+        "Which nodes a source attracts.", default=RelativeParameters()
+    )
+
+    def model(self, folder: Path = Path()) -> Colonization:
+        """Give the model; files are looked for in ``folder``."""
+        kill_distance = self.arrival.kill_distance
+        return Colonization(
+            perception=self.perception.perception(kill_distance),
+            arrival=TaggedArrival(kill_distance, self.extension.segment_length),
+            **self.parts(folder),
+        )

@@ -1,0 +1,148 @@
+"""Extension: every attracted node grows one segment toward its sources."""
+
+from typing import Literal
+
+import numpy as np
+
+from vasc import kernels
+from vasc.arrays import Ids, Points
+from vasc.events import EventKind
+from vasc.growth import Growth
+from vasc.models.perception import Attraction
+from vasc.network import Origin, SegmentKind
+from vasc.parameters import Parameters, quantity
+from vasc.placement import Moment
+from vasc.vasculature import Vasculature
+
+
+class Extension:
+    """Adds one node to every attracted node, in the mean direction of its sources.
+
+    Parameters
+    ----------
+    segment_length : float
+        Length of a new segment, D.
+    bias : tuple of float
+        The vector g of equation 3.3.
+    stall_rule : bool
+        Whether a node whose pulls cancel takes the nearest source (else it can
+        livelock: the same child is added for ever).
+    """
+
+    def __init__(
+        self, segment_length: float, bias: tuple[float, float], *, stall_rule: bool
+    ) -> None:
+        self.segment_length = segment_length
+        self.bias = bias
+        self.stall_rule = stall_rule
+
+    def extend(self, veins: Vasculature, attraction: Attraction, moment: Moment) -> int:
+        """Add the new nodes and their segments; gives their number."""
+        parents, material, causes, is_stalled = kernels.extension.children(
+            attraction.order,
+            attraction.pulls,
+            veins.material("nodes"),
+            veins.material("sources"),
+            self.segment_length / moment.scale,
+            self.bias[0],
+            self.bias[1],
+            self.stall_rule,
+        )
+        is_allowed = self.allowed(material, moment)
+        if not is_allowed.all():
+            parents, material = parents[is_allowed], material[is_allowed]
+            causes, is_stalled = causes[is_allowed], is_stalled[is_allowed]
+        if len(parents):
+            self._add(veins, moment, parents, material, causes, is_stalled)
+        return len(parents)
+
+    def allowed(self, material: Points, moment: Moment) -> np.ndarray:
+        """Tell which new nodes may come to be: here, all."""
+        return np.ones(len(material), dtype=bool)
+
+    @staticmethod
+    def _add(
+        veins: Vasculature,
+        moment: Moment,
+        parents: Ids,
+        material: Points,
+        causes: Ids,
+        is_stalled: np.ndarray,
+    ) -> None:
+        """Append nodes, segments and events."""
+        branches = veins.has_child[parents]
+        veins.has_child[parents] = True
+        rows = veins.add_nodes(
+            moment.step, material, moment.scale, parents, causes, Origin.EXTENSION
+        )
+        children = np.arange(rows.start, rows.stop, dtype=np.int32)
+        veins.add_segments(
+            moment.step, np.stack([parents, children], axis=1), SegmentKind.EXTENSION
+        )
+        if branches.any():
+            veins.log(
+                moment.step, EventKind.VEIN_INITIATED, children[branches], parents[branches]
+            )
+        if is_stalled.any():
+            veins.log(
+                moment.step, EventKind.STALL_RESOLVED, parents[is_stalled], causes[is_stalled]
+            )
+
+
+class ConfinedExtension(Extension):
+    """An extension that never leaves the blade: a node beyond the margin is not made.
+
+    Parameters
+    ----------
+    growth : Growth
+        The growing blade.
+    segment_length, bias, stall_rule
+        As for :class:`Extension`.
+    """
+
+    def __init__(
+        self,
+        growth: Growth,
+        segment_length: float,
+        bias: tuple[float, float],
+        *,
+        stall_rule: bool,
+    ) -> None:
+        super().__init__(segment_length, bias, stall_rule=stall_rule)
+        self.outline = kernels.polygon.edge_grid(*growth.blade.flat)
+
+    def allowed(self, material: Points, moment: Moment) -> np.ndarray:
+        """Tell which new nodes are in the blade."""
+        return kernels.polygon.are_inside(self.outline, material, moment.outline_size)
+
+
+class ExtensionParameters(Parameters):
+    """How veins extend (equations 3.1 and 3.3)."""
+
+    kind: Literal["free", "confined"] = quantity(
+        "Whether a vein may cross the margin ('free': it may where the blade is concave) or"
+        " not ('confined': it waits until another direction opens).",
+        default="free",
+    )
+    segment_length: float = quantity(
+        "Length of a new segment (D); all other lengths are in the same unit.",
+        unit="D",
+        default=1.0,
+        gt=0.0,
+    )
+    bias: tuple[float, float] = quantity(
+        "Constant bias of the direction (vector g of equation 3.3).", default=(0.0, 0.0)
+    )
+    stall_rule: bool = quantity(
+        "Where the pulls on a node cancel, extend toward the nearest source; off, the"
+        " literal equation 3.1, which can add the same node for ever.",
+        default=True,
+    )
+
+    def extension(self, growth: Growth) -> Extension:
+        """Give the extension for a growing blade."""
+        if self.kind == "confined":
+            return ConfinedExtension(
+                growth, self.segment_length, self.bias, stall_rule=self.stall_rule
+            )
+        return Extension(self.segment_length, self.bias, stall_rule=self.stall_rule)

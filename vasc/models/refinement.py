@@ -1,0 +1,118 @@
+"""Refinement: segments that growth has stretched are halved."""
+
+from abc import ABC, abstractmethod
+from typing import Literal
+
+import numpy as np
+
+from vasc.arrays import NULL, Ids
+from vasc.events import EventKind
+from vasc.growth import Growth
+from vasc.network import Origin, SegmentKind
+from vasc.parameters import Parameters, quantity
+from vasc.placement import Moment
+from vasc.vasculature import Vasculature
+
+
+class Refinement(ABC):
+    """Keeps the veins fine enough while the blade grows."""
+
+    @abstractmethod
+    def refine(self, veins: Vasculature, moment: Moment) -> int:
+        """Refine what growth has stretched in this step; gives the number of new nodes."""
+
+
+class NoRefinement(Refinement):
+    """Segments stay what they are."""
+
+    def refine(self, veins: Vasculature, moment: Moment) -> int:
+        """Do nothing."""
+        return 0
+
+
+class Subdivision(Refinement):
+    """Halves every segment that is longer than a limit.
+
+    When a segment will be too long follows from its birth and the growth, so
+    that a step looks only at the segments that are due.
+
+    Parameters
+    ----------
+    growth : Growth
+        The growing blade.
+    longest : float
+        Greatest length of a segment, in D.
+    """
+
+    def __init__(self, growth: Growth, longest: float) -> None:
+        self.longest = longest
+        self._scales = np.array([growth.scale(step) for step in range(growth.last_step + 1)])
+        self._due: dict[int, list[Ids]] = {}
+        self._n_seen = 0
+
+    def refine(self, veins: Vasculature, moment: Moment) -> int:
+        """Halve the segments that are due, and the halves again if need be."""
+        n_before = veins.nodes.n_rows
+        self._watch(veins, moment.step - 1)
+        while (due := self._due.pop(moment.step, None)) is not None:
+            self._halve(veins, moment, np.concatenate(due))
+            self._watch(veins, moment.step - 1)
+        return veins.nodes.n_rows - n_before
+
+    def _watch(self, veins: Vasculature, step: int) -> None:
+        """Note when each segment not seen before will be too long (the next step at the soonest)."""
+        ids = np.arange(self._n_seen, veins.segments.n_rows, dtype=np.int32)
+        self._n_seen = veins.segments.n_rows
+        ids = ids[~veins.refined[ids]]
+        ends = veins.material("nodes")[veins.segments.arrays["nodes"][ids]]
+        lengths = np.sqrt(((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1))
+        due = np.searchsorted(self._scales, self.longest / lengths, side="right")
+        is_ever = due < len(self._scales)
+        due = np.maximum(due[is_ever], step + 1)
+        for moment in np.unique(due).tolist():
+            self._due.setdefault(moment, []).append(ids[is_ever][due == moment])
+
+    @staticmethod
+    def _halve(veins: Vasculature, moment: Moment, ids: Ids) -> None:
+        """Replace segments by two halves with a new node between them."""
+        ends = veins.segments.arrays["nodes"][ids]
+        material = veins.material("nodes")
+        middles = 0.5 * (material[ends[:, 0]] + material[ends[:, 1]])
+        rows = veins.add_nodes(
+            moment.step, middles, moment.scale, ends[:, 0], NULL, Origin.REFINEMENT
+        )
+        nodes = np.arange(rows.start, rows.stop, dtype=np.int32)
+        veins.has_child[nodes] = True
+        halves = np.stack([ends[:, 0], nodes, nodes, ends[:, 1]], axis=1).reshape(-1, 2)
+        veins.add_segments(moment.step, halves, SegmentKind.REFINEMENT)
+        veins.refined[ids] = True
+        veins.log(moment.step, EventKind.SEGMENT_REFINED, ids, nodes)
+
+
+class NoRefinementParameters(Parameters):
+    """Segments are never refined."""
+
+    kind: Literal["none"] = "none"
+
+    def refinement(self, growth: Growth, birth_distance: float, length: float) -> Refinement:
+        """Give the refinement."""
+        return NoRefinement()
+
+
+class SubdivisionParameters(Parameters):
+    """Segments that growth has stretched too far are halved."""
+
+    kind: Literal["subdivision"] = "subdivision"
+    longest: float | None = quantity(
+        "Greatest length of a segment; by default the lesser of the birth distance to veins"
+        " and two segment lengths, so that no vein can slip through a stretched one.",
+        unit="D",
+        default=None,
+        gt=0.0,
+    )
+
+    def refinement(self, growth: Growth, birth_distance: float, length: float) -> Refinement:
+        """Give the refinement for a growing blade."""
+        longest = self.longest or min(birth_distance, 2.0 * length)
+        return Subdivision(growth, longest)
+

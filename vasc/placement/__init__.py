@@ -1,0 +1,16 @@
+"""Where auxin sources appear."""
+
+from vasc.placement.base import Moment, Placement
+from vasc.placement.darts import DartParameters, DartPlacement
+from vasc.placement.given import GivenParameters, GivenPlacement
+from vasc.placement.largest_blade import LargestBladePlacement
+
+__all__ = [
+    "DartParameters",
+    "DartPlacement",
+    "GivenParameters",
+    "GivenPlacement",
+    "LargestBladePlacement",
+    "Moment",
+    "Placement",
+]
