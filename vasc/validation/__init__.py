@@ -1,0 +1,1 @@
+"""Published numbers and the checks that hold runs against them."""
