@@ -1,0 +1,17 @@
+"""What all tests share: no display, and property-based tests that repeat themselves."""
+
+import os
+
+from hypothesis import HealthCheck, settings
+
+os.environ["MPLBACKEND"] = "Agg"
+
+# No deadline: the first call of a kernel compiles it. Derandomized: a failure is the
+# change's, not the day's.
+settings.register_profile(
+    "house",
+    deadline=None,
+    derandomize=True,
+    suppress_health_check=[HealthCheck.too_slow],
+)
+settings.load_profile("house")
