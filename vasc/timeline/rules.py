@@ -104,7 +104,7 @@ def filled(record: Record) -> Findings:
             values = record.column(table, name)
             fill = layout.fill_value(values.dtype)
             bad = ~np.isfinite(values) if values.dtype.kind == "f" else values == fill
-            is_bad = bad.any(axis=tuple(range(1, bad.ndim)))
+            is_bad = bad if bad.ndim == 1 else bad.any(axis=1)
             wanted = "must be finite" if values.dtype.kind == "f" else "was never written"
             yield from bad_rows("written", f"{table}/{name}", is_bad, values, wanted)
 
@@ -178,8 +178,8 @@ def _references(
     """Check that a column of ids stays within the rows its target had at that step."""
     values = record.column(table, name)
     limits = record.limits(table, target).reshape(-1, *(1,) * (values.ndim - 1))
-    bad: NDArray = (values < (NULL if null else 0)) | (values >= limits)
-    is_bad: NDArray = bad.any(axis=tuple(range(1, bad.ndim)))
+    bad = np.asarray((values < (NULL if null else 0)) | (values >= limits))
+    is_bad = bad if bad.ndim == 1 else bad.any(axis=1)
     if where is not None:
         is_bad &= where
     yield from bad_rows(
