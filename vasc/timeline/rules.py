@@ -179,9 +179,9 @@ def _references(
     values = record.column(table, name)
     limits = record.limits(table, target).reshape(-1, *(1,) * (values.ndim - 1))
     bad = np.asarray((values < (NULL if null else 0)) | (values >= limits))
-    is_bad = bad if bad.ndim == 1 else bad.any(axis=1)
+    is_bad = np.asarray(bad if bad.ndim == 1 else bad.any(axis=1))
     if where is not None:
-        is_bad &= where
+        is_bad = np.asarray(is_bad & where)
     yield from bad_rows(
         "ids", f"{table}/{name}", is_bad, values, f"no row of {target} at that step"
     )
