@@ -1,0 +1,127 @@
+"""What the pages show works as they show it."""
+
+import os
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from vasc.timeline import Timeline
+
+ROOT = Path(__file__).resolve().parent.parent
+PROGRAM = [sys.executable, "-c", "import sys; from vasc.cli import main; sys.exit(main())"]
+
+
+def blocks(page, language):
+    """Give the code blocks of a page in one language."""
+    text = (ROOT / "docs" / page).read_text()
+    return re.findall(rf"^```{language}\n(.*?)^```$", text, flags=re.MULTILINE | re.DOTALL)
+
+
+def named_blocks(page):
+    """Give the code blocks that begin with the name of a file, by that name."""
+    found = [block for language in ("python", "toml") for block in blocks(page, language)]
+    pairs = [re.match(r"# (\S+\.(?:py|toml))\n", block) for block in found]
+    return {match[1]: block for match, block in zip(pairs, found, strict=True) if match}
+
+
+def vasc(folder, *arguments):
+    """Run the program in a folder where packages are found too."""
+    return subprocess.run(
+        [*PROGRAM, *arguments],
+        cwd=folder,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(folder), str(ROOT)])},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+@pytest.fixture(scope="module")
+def extended(tmp_path_factory):
+    """Install the package of the page on extending, as pip would."""
+    folder = tmp_path_factory.mktemp("extended")
+    for name, block in named_blocks("extending.md").items():
+        path = folder / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(block)
+    (project,) = (block for block in blocks("extending.md", "toml") if "[project]" in block)
+    described = tomllib.loads(project)["project"]
+    record = folder / "slow_leaves-1.0.dist-info"
+    record.mkdir()
+    (record / "METADATA").write_text(
+        f"Metadata-Version: 2.1\nName: {described['name']}\nVersion: 1.0\n"
+    )
+    lines = []
+    for group, points in described["entry-points"].items():
+        lines += [f"[{group}]", *(f"{name} = {target}" for name, target in points.items())]
+    (record / "entry_points.txt").write_text("\n".join(lines) + "\n")
+    return folder
+
+
+def test_a_model_of_your_own_runs_and_verifies(extended):
+    run = vasc(extended, "run", "slow.toml", "-o", "slow.h5", "--no-figure", "--quiet")
+    assert run.returncode == 0, run.stderr
+    with Timeline(extended / "slow.h5") as timeline:
+        assert timeline.model == "slow-open"
+        assert timeline.growth == "slowing"
+        assert timeline.is_complete
+        frame = timeline.frame()
+        assert frame.network.n_nodes > 100
+        # the growth of the page: a thousandth of the final length may be missing
+        assert 120.0 * 0.999 <= frame.blade.length < 120.0
+        lengths = [timeline.frame(step).blade.length for step in (0, 1, 2)]
+    assert lengths == pytest.approx([40.0, 41.6, 43.168])
+    verified = vasc(extended, "verify", "slow.h5")
+    assert verified.returncode == 0, verified.stdout + verified.stderr
+
+
+def test_a_model_of_your_own_is_checked_like_ours(extended):
+    text = (extended / "slow.toml").read_text()
+    (extended / "bad.toml").write_text(text.replace("share = 0.02", "share = 2.0"))
+    refused = vasc(extended, "run", "bad.toml", "-o", "bad.h5")
+    assert refused.returncode == 2
+    assert "growth.share" in refused.stderr
+    assert not (extended / "bad.h5").exists()
+
+
+def test_the_experiment_of_the_tutorial_has_loops_only_with_a_small_kill_distance(tmp_path):
+    (config,) = (block for block in blocks("tutorial.md", "toml") if block.startswith("kind"))
+    (tmp_path / "my-leaf.toml").write_text(config)
+    cycles = {}
+    for distance in ("1", "6"):
+        output = f"{distance}.h5"
+        run = vasc(
+            tmp_path,
+            *("run", "my-leaf.toml", "-o", output, "--no-figure", "--quiet"),
+            *("--set", f"arrival.kill_distance={distance}"),
+        )
+        assert run.returncode == 0, run.stderr
+        with Timeline(tmp_path / output) as timeline:
+            network = timeline.frame().network
+            cycles[distance] = network.n_segments - network.n_nodes + 1
+    assert cycles["1"] > 10
+    assert cycles["6"] < cycles["1"] / 10
+
+
+def test_the_tutorial_names_what_there_is():
+    text = (ROOT / "docs" / "tutorial.md").read_text() + (ROOT / "README.md").read_text()
+    copied = re.findall(r"^vasc configs --copy (\S+)", text, flags=re.MULTILINE)
+    assert copied
+    names = {path.stem for path in (ROOT / "configs").glob("*.toml")}
+    assert set(copied) <= names
+
+
+def test_every_verb_of_the_readme_exists():
+    text = (ROOT / "README.md").read_text()
+    verbs = set(re.findall(r"^vasc ([a-z]+)", text, flags=re.MULTILINE))
+    for verb in sorted(verbs):
+        shown = vasc(ROOT, verb, "--help")
+        assert shown.returncode == 0, f"{verb}: {shown.stderr}"
+    assert verbs == {
+        *("configs", "run", "resume", "show", "events", "lineage", "stats"),
+        *("render", "animate", "verify", "schema"),
+    }
