@@ -1,14 +1,14 @@
 """Arrival: which sources the veins have reached, and which are still awaited."""
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from vasc.kernels.compiled import compiled
 from vasc.kernels.perceived import Perceived
 from vasc.kernels.tags import Tags, is_tagged
 
 
-@njit(cache=True)
+@compiled
 def reached_first(
     live: NDArray[np.int32], perceived: Perceived, kill: float
 ) -> NDArray[np.int32]:
@@ -22,7 +22,7 @@ def reached_first(
     return reached[:n_reached]
 
 
-@njit(cache=True)
+@compiled
 def tag_and_wait(
     live: NDArray[np.int32],
     perceived: Perceived,

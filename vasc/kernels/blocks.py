@@ -3,8 +3,9 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from vasc.kernels.compiled import compiled
 
 SOURCES_PER_BLOCK = 16
 
@@ -20,7 +21,7 @@ class Blocks(NamedTuple):
     """Tight box of each block's sources: low x, low y, high x, high y, shape (n_blocks, 4)."""
 
 
-@njit(cache=True)
+@compiled
 def blocks_of(sources: NDArray[np.float64], live: NDArray[np.int32]) -> Blocks:
     """Sort the live sources into blocks of about sixteen.
 
@@ -77,7 +78,7 @@ def blocks_of(sources: NDArray[np.float64], live: NDArray[np.int32]) -> Blocks:
     return Blocks(order, starts, boxes)
 
 
-@njit(cache=True)
+@compiled
 def box_far_distance(
     low_x: float, low_y: float, high_x: float, high_y: float, x: float, y: float
 ) -> float:

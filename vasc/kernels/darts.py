@@ -9,9 +9,9 @@ with the same density, and the sources have the same distribution.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from vasc.kernels.compiled import compiled
 from vasc.kernels.hash_grid import HashGrid, any_within, cell_of, insert, squared_distance
 from vasc.kernels.polygon import EdgeGrid, is_inside
 
@@ -49,7 +49,7 @@ def dart_cells(
     )
 
 
-@njit(cache=True)
+@compiled
 def cover(
     cells: DartCells, nodes: NDArray[np.float64], start: int, stop: int, radius: float
 ) -> None:
@@ -81,7 +81,7 @@ def cover(
                     cells.place[cell] = -1
 
 
-@njit(cache=True)
+@compiled
 def aim(cells: DartCells, uniforms: NDArray[np.float64]) -> NDArray[np.float64]:
     """Turn uniform numbers, shape (n, 3), into darts on uncovered cells, shape (n, 2)."""
     n_darts = uniforms.shape[0]
@@ -94,7 +94,7 @@ def aim(cells: DartCells, uniforms: NDArray[np.float64]) -> NDArray[np.float64]:
     return darts
 
 
-@njit(cache=True)
+@compiled
 def live_within(
     grid: HashGrid,
     sources: NDArray[np.float64],
@@ -119,7 +119,7 @@ def live_within(
     return False
 
 
-@njit(cache=True)
+@compiled
 def throw(
     darts: NDArray[np.float64],
     outline: EdgeGrid,
@@ -172,7 +172,7 @@ def throw(
     return n_sources
 
 
-@njit(cache=True)
+@compiled
 def keep_apart(
     points: NDArray[np.float64], grid: HashGrid, limit: float
 ) -> NDArray[np.int64]:

@@ -3,9 +3,9 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from vasc.kernels.compiled import compiled
 from vasc.kernels.perceived import Perceived
 from vasc.kernels.tags import Tags, is_pulled
 
@@ -36,7 +36,7 @@ def pulls(capacity: int) -> Pulls:
     )
 
 
-@njit(cache=True)
+@compiled
 def sum_pulls(
     live: NDArray[np.int32],
     sources: NDArray[np.float64],
@@ -106,7 +106,7 @@ def sum_pulls(
     return n_pulled
 
 
-@njit(cache=True)
+@compiled
 def children(
     order: NDArray[np.int64],
     pulls: Pulls,

@@ -1,15 +1,15 @@
 """The nearest vein node of every source, kept up to date as nodes are added."""
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from vasc.kernels.compiled import compiled
 from vasc.kernels.blocks import blocks_of
 from vasc.kernels.hash_grid import HashGrid, box_distance, nearest, squared_distance
 from vasc.kernels.perceived import OTHER_VEINS, SAME_VEINS, Perceived
 
 
-@njit(cache=True)
+@compiled
 def perceive_new(
     grid: HashGrid,
     nodes: NDArray[np.float64],
@@ -28,7 +28,7 @@ def perceive_new(
             perceived.n_members[s] = 1
 
 
-@njit(cache=True)
+@compiled
 def update(
     grid: HashGrid,
     nodes: NDArray[np.float64],
@@ -45,22 +45,22 @@ def update(
     """
     if len(live) == 0 or stop == start:
         return
-    blocks = blocks_of(sources, live)
-    for b in range(len(blocks.starts) - 1):
-        first, last = blocks.starts[b], blocks.starts[b + 1]
+    order, starts, boxes = blocks_of(sources, live)
+    for b in range(len(starts) - 1):
+        first, last = starts[b], starts[b + 1]
         if first == last:
             continue
         reach = 0.0
         for k in range(first, last):
-            s = blocks.order[k]
+            s = order[k]
             reach = max(reach, perceived.distances[s, 0])
-        box = blocks.boxes[b]
+        low_x, low_y, high_x, high_y = boxes[b, 0], boxes[b, 1], boxes[b, 2], boxes[b, 3]
         for c in range(start, stop):
             cx, cy = nodes[c, 0], nodes[c, 1]
-            if box_distance(box[0], box[1], box[2], box[3], cx, cy) > reach:
+            if box_distance(low_x, low_y, high_x, high_y, cx, cy) > reach:
                 continue
             for k in range(first, last):
-                s = blocks.order[k]
+                s = order[k]
                 distance = squared_distance(cx, cy, sources[s, 0], sources[s, 1])
                 if distance < perceived.distances[s, 0]:
                     if parents[c] == perceived.members[s, 0]:

@@ -3,8 +3,9 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from vasc.kernels.compiled import compiled
 
 MAX_MEMBERS = 8
 """A relative neighbourhood in the plane has at most six members, seven with a node on the source."""
@@ -55,7 +56,7 @@ def enlarged(old: Perceived, capacity: int) -> Perceived:
     return new
 
 
-@njit(cache=True)
+@compiled
 def count_changed(live: NDArray[np.int32], perceived: Perceived, least: int) -> int:
     """Count the pairs that :func:`take_changed` will write."""
     n_pairs = 0
@@ -65,7 +66,7 @@ def count_changed(live: NDArray[np.int32], perceived: Perceived, least: int) -> 
     return n_pairs
 
 
-@njit(cache=True)
+@compiled
 def take_changed(
     live: NDArray[np.int32],
     perceived: Perceived,

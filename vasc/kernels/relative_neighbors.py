@@ -8,9 +8,9 @@ lose members to new nodes and gain new nodes, but never regain an old one.
 """
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from vasc.kernels.compiled import compiled, inlined
 from vasc.kernels.blocks import blocks_of, box_far_distance
 from vasc.kernels.hash_grid import (
     HashGrid,
@@ -28,7 +28,7 @@ MAX_VISITED = 64
 PRUNE_SLACK = 1e-9
 
 
-@njit(cache=True)
+@compiled
 def excludes(
     u: int, u_distance: float, v: int, v_distance: float, between: float
 ) -> bool:
@@ -42,7 +42,7 @@ def excludes(
     return between < v_distance or between == 0.0
 
 
-@njit(cache=True)
+@compiled
 def lune_witness(
     grid: HashGrid,
     nodes: NDArray[np.float64],
@@ -99,7 +99,7 @@ def lune_witness(
     return -1
 
 
-@njit(cache=True)
+@compiled
 def _cell_is_behind(
     grid: HashGrid, level: int, column: int, row: int, x: float, y: float, wx: float, wy: float
 ) -> bool:
@@ -119,7 +119,7 @@ def _cell_is_behind(
     return least > 0.0
 
 
-@njit(cache=True)
+@compiled
 def _next_candidate(
     grid: HashGrid,
     nodes: NDArray[np.float64],
@@ -167,7 +167,7 @@ def _next_candidate(
     return best, best_distance
 
 
-@njit(cache=True)
+@compiled
 def perceive_new(
     grid: HashGrid,
     nodes: NDArray[np.float64],
@@ -195,7 +195,7 @@ def perceive_new(
         perceived.change[s] = OTHER_VEINS
 
 
-@njit(cache=True)
+@inlined
 def _absorb(
     grid: HashGrid,
     nodes: NDArray[np.float64],
@@ -287,14 +287,17 @@ def _absorb(
     perceived.n_members[s] = n_kept
 
 
-@njit(cache=True)
+@inlined
 def _nodes_for_block(
     nodes: NDArray[np.float64],
     start: int,
     stop: int,
-    box: NDArray[np.float64],
+    boxes: NDArray[np.float64],
+    b: int,
     reach: float,
     witnesses: NDArray[np.int32],
+    n_witnesses: int,
+    far: NDArray[np.float64],
     offered: NDArray[np.int32],
 ) -> int:
     """List the new nodes that may matter to a source in the box; gives their number.
@@ -302,9 +305,7 @@ def _nodes_for_block(
     A node beyond the reach of every source there matters only as a new member,
     and not even so when a witness excludes it wherever in the box the source is.
     """
-    low_x, low_y, high_x, high_y = box[0], box[1], box[2], box[3]
-    n_witnesses = len(witnesses)
-    far = np.empty(n_witnesses)
+    low_x, low_y, high_x, high_y = boxes[b, 0], boxes[b, 1], boxes[b, 2], boxes[b, 3]
     for k in range(n_witnesses):
         u = witnesses[k]
         far[k] = box_far_distance(low_x, low_y, high_x, high_y, nodes[u, 0], nodes[u, 1])
@@ -327,7 +328,7 @@ def _nodes_for_block(
     return n_offered
 
 
-@njit(cache=True)
+@inlined
 def _candidates_of_source(
     nodes: NDArray[np.float64],
     parents: NDArray[np.int32],
@@ -377,7 +378,7 @@ def _candidates_of_source(
     return n_candidates
 
 
-@njit(cache=True)
+@compiled
 def update(
     grid: HashGrid,
     nodes: NDArray[np.float64],
@@ -394,7 +395,8 @@ def update(
     """
     if len(live) == 0 or stop == start:
         return
-    blocks = blocks_of(sources, live)
+    order, starts, boxes = blocks_of(sources, live)
+    far = np.empty(3)
     offered = np.empty(stop - start, dtype=np.int32)
     offered_points = np.empty((stop - start, 2))
     candidates = np.empty(stop - start, dtype=np.int32)
@@ -402,14 +404,14 @@ def update(
     kept = np.empty(MAX_MEMBERS, dtype=np.int32)
     kept_distances = np.empty(MAX_MEMBERS)
     witnesses = np.empty(3, dtype=np.int32)
-    for b in range(len(blocks.starts) - 1):
-        first, last = blocks.starts[b], blocks.starts[b + 1]
+    for b in range(len(starts) - 1):
+        first, last = starts[b], starts[b + 1]
         if first == last:
             continue
         reach = 0.0
         n_witnesses = 0
         for k in range(first, last):
-            s = blocks.order[k]
+            s = order[k]
             n_members = perceived.n_members[s]
             if n_members == 0:
                 reach = np.inf
@@ -419,7 +421,7 @@ def update(
                 witnesses[n_witnesses] = perceived.members[s, 0]
                 n_witnesses += 1
         n_offered = _nodes_for_block(
-            nodes, start, stop, blocks.boxes[b], reach, witnesses[:n_witnesses], offered
+            nodes, start, stop, boxes, b, reach, witnesses, n_witnesses, far, offered
         )
         if n_offered == 0:
             continue
@@ -427,7 +429,7 @@ def update(
             offered_points[k, 0] = nodes[offered[k], 0]
             offered_points[k, 1] = nodes[offered[k], 1]
         for k in range(first, last):
-            s = blocks.order[k]
+            s = order[k]
             x, y = sources[s, 0], sources[s, 1]
             n_candidates = _candidates_of_source(
                 nodes,

@@ -3,9 +3,9 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from vasc.kernels.compiled import compiled
 from vasc.kernels.perceived import MAX_MEMBERS, Perceived
 
 
@@ -37,7 +37,7 @@ def enlarged(old: Tags, capacity: int) -> Tags:
     return new
 
 
-@njit(cache=True)
+@compiled
 def is_tagged(
     tags: Tags, s: int, v: int, parents: NDArray[np.int32], births: NDArray[np.int32]
 ) -> bool:
@@ -54,7 +54,7 @@ def is_tagged(
     return False
 
 
-@njit(cache=True)
+@compiled
 def is_pulled(
     tags: Tags,
     perceived: Perceived,
@@ -78,7 +78,7 @@ def is_pulled(
     return is_tagged(tags, s, perceived.members[s, k], parents, births)
 
 
-@njit(cache=True)
+@compiled
 def retag(
     tags: Tags,
     steps: NDArray[np.int32],
