@@ -62,4 +62,4 @@ def test_json_takes_it_as_it_is():
 
 def test_units_of_a_config_without_units():
     assert LengthUnit.from_table(None) == LengthUnit.from_table({}) == LengthUnit("D", 1.0)
-    assert LengthUnit.from_table({"length": "um"}).symbol == "µm"
+    assert LengthUnit.from_table({"length": "mm"}) == LengthUnit("mm", 1.0)

@@ -122,3 +122,14 @@ class TestScaleBar:
         figure = draw_leaf(cross_leaf(), units={"length": "um", "segment": 10.0})
         (bar,) = figure.axes[0].lines
         assert np.ptp(bar.get_xdata()) == pytest.approx(2.0)
+
+
+class TestSources:
+    def test_dots_are_smaller_where_sources_are_dense(self):
+        sizes = []
+        for distance in (3.0, 0.1):
+            places = np.arange(20.0)[:, None] * [distance / 20.0, 0.0] + [0.0, 3.0]
+            moment = PlainMoment(cross_leaf().network, cross_leaf().blade, sources(places))
+            figure, _ = draw(moment, sources=True, scale_bar=False)
+            sizes.append(figure.axes[0].lines[0].get_markersize())
+        assert LeafStyle().source_size >= sizes[0] > sizes[1] >= 0.8

@@ -9,7 +9,7 @@ from vasc.analysis import WidthParameters
 from vasc.analysis.ancestry import descent
 from vasc.analysis.widths import pipes, radii
 from vasc.errors import VascError
-from vasc.render.looks import Scale, color_segments, fit_widths, gradient, width_classes
+from vasc.render.looks import Paint, Scale, color_segments, fit_widths, gradient, width_classes
 from vasc.render.styles import COLOR_CHOICES, LeafStyle
 
 STYLE = LeafStyle(finest=(0.5, 2.0), finest_share=0.1, thickest_share=0.02)
@@ -24,7 +24,8 @@ NET = network(
 
 def colors(net, color):
     directions = descent(net)
-    coloring = color_segments(net, color, directions, pipes(net), LeafStyle())
+    paint = Paint(color, LeafStyle(), last_step=9)
+    coloring = color_segments(net, paint, directions, pipes(net))
     return [coloring.palette[k] for k in coloring.classes], coloring.key
 
 
@@ -84,10 +85,11 @@ class TestColors:
         assert found[0] == found[1] == found[2] != found[3]
         assert key.labels == ("extension", "join")
 
-    def test_age_runs_from_the_first_to_the_last_birth(self):
-        found, key = colors(NET, "age")
-        assert (found[0], found[3]) == (key.colors[0], key.colors[-1])
-        assert key.labels == ("1", "9")
+    def test_age_runs_from_step_0_to_the_last(self):
+        born = network(np.zeros((3, 2)), [(0, 1), (1, 2)], births=[0, 0, 9])
+        found, key = colors(born, "age")
+        assert found == [key.colors[0], key.colors[-1]]
+        assert key.labels == ("0", "9")
 
     def test_halves_have_the_age_and_the_source_of_the_whole(self):
         halves = halved(NET, {1})

@@ -33,7 +33,25 @@ class LengthUnit:
             return cls()
         return cls(str(units["length"]), float(units.get("segment") or 1.0))
 
-    @property
-    def symbol(self) -> str:
-        """The name as it is printed beside a number."""
-        return "\N{MICRO SIGN}m" if self.name in ("um", "µm", "micrometer") else self.name
+    def label(self, length: float) -> str:
+        """Write a length in this unit, with micrometres from 1000 on as millimetres.
+
+        Parameters
+        ----------
+        length : float
+            A length, in this unit.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> LengthUnit("um").label(200.0), LengthUnit("um").label(2000.0), LengthUnit().label(50.0)
+        ('200 µm', '2 mm', '50 D')
+        """
+        if self.name not in ("um", "\N{MICRO SIGN}m"):
+            return f"{length:g} {self.name}"
+        if length >= 1000.0:
+            return f"{length / 1000.0:g} mm"
+        return f"{length:g} \N{MICRO SIGN}m"

@@ -119,6 +119,7 @@ def animate(
                     units=timeline.units,
                     style=style,
                     view=view,
+                    last_step=last.step,
                 )
                 yield _pixels(figure)
                 if progress is not None:

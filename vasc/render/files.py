@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from vasc.analysis.widths import WidthParameters
 from vasc.errors import OutputError, VascError
+from vasc.render.keys import size_in_points
 from vasc.render.leaf import View, draw_leaf, fitted_widths, view_at, view_of
 from vasc.render.styles import DPI, INK, TEXT_SIZE, LeafStyle
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 PICTURE_SUFFIXES = (".png", ".svg", ".pdf")
 # what a user's matplotlibrc might change in a picture
-_SETTINGS: dict[str, Any] = {
+_SETTINGS: Any = {
     "svg.hashsalt": "vasc",
     "svg.fonttype": "path",
     "font.family": "DejaVu Sans",
@@ -101,21 +102,14 @@ def render(
                 widths=widths,
                 sources=sources,
                 scale_bar=scale_bar and frame is frames[0],
+                key=frame is frames[-1],
                 units=timeline.units,
                 style=style,
                 view=view,
+                last_step=max(each.step for each in frames),
             )
             if len(frames) > 1:
-                ax.text(
-                    0.5,
-                    1.0,
-                    f"step {frame.step}",
-                    transform=ax.transAxes,
-                    ha="center",
-                    va="top",
-                    fontsize=TEXT_SIZE,
-                    color=INK,
-                )
+                _write_step(ax, frame.step)
         save(figure, output)
     return output
 
@@ -193,7 +187,27 @@ def widths_of(timeline: Timeline) -> WidthParameters:
 def _views(frames: Sequence[Frame], style: LeafStyle, side: float) -> list[View]:
     """Give views of one scale, at which the largest blade has the side asked for."""
     scale = min(view_of(frame.blade, style, side=side).points_per_length for frame in frames)
-    return [view_at(frame.blade, style, scale) for frame in frames]
+    views = [view_at(frame.blade, style, scale) for frame in frames]
+    if len(views) == 1:
+        return views
+    # the places where the leaves are attached stand on one line, and steps are written above
+    ground = min(view.box[1] for view in views)
+    above = 2.0 * TEXT_SIZE / scale
+    return [View((view.box[0], ground, view.box[2], view.box[3] + above), scale) for view in views]
+
+
+def _write_step(ax: Axes, step: int) -> None:
+    """Write the number of the step over a leaf."""
+    ax.text(
+        0.5,
+        1.0 - 0.5 * TEXT_SIZE / size_in_points(ax)[1],
+        f"step {step}",
+        transform=ax.transAxes,
+        ha="center",
+        va="top",
+        fontsize=TEXT_SIZE,
+        color=INK,
+    )
 
 
 def _side_by_side(views: Sequence[View], style: LeafStyle) -> tuple[Figure, list[Axes]]:

@@ -14,7 +14,7 @@ from vasc.analysis.moment import Moment
 from vasc.analysis.units import LengthUnit
 from vasc.analysis.widths import Pipes, WidthParameters, pipes, radii
 from vasc.render.keys import draw_key, size_in_points
-from vasc.render.looks import Coloring, Scale, color_segments, fit_widths, width_classes
+from vasc.render.looks import Coloring, Paint, Scale, color_segments, fit_widths, width_classes
 from vasc.render.strokes import string_together
 from vasc.render.styles import STRIP, LeafStyle
 from vasc.render.surroundings import Box, draw_blade, draw_scale_bar, draw_sources
@@ -117,9 +117,11 @@ def draw_leaf(
     widths: WidthParameters | None = None,
     sources: bool = False,
     scale_bar: bool = True,
+    key: bool = True,
     units: Mapping[str, Any] | None = None,
     style: LeafStyle | None = None,
     view: View | None = None,
+    last_step: int | None = None,
 ) -> Figure:
     """Draw a leaf: its blade, and its veins as wide as Murray's law makes them.
 
@@ -138,12 +140,17 @@ def draw_leaf(
         Whether to draw the live sources.
     scale_bar : bool
         Whether to draw a scale bar.
+    key : bool
+        Whether to say what the colours mean, where that is needed.
     units : mapping, optional
         The run's ``[units]`` table, for the scale bar.
     style : LeafStyle, optional
         Colours and measures.
     view : View, optional
         What to show; the whole blade if left out.
+    last_step : int, optional
+        The step that the colour of the youngest veins stands for, to compare
+        pictures; that of ``moment`` if left out.
 
     Returns
     -------
@@ -156,7 +163,7 @@ def draw_leaf(
         If ``color`` is none of the choices.
     """
     style = LeafStyle() if style is None else style
-    has_strip = scale_bar or color not in ("width", "source")
+    has_strip = scale_bar or (key and color not in ("width", "source"))
     if ax is None:
         view = view_of(moment.blade, style, with_strip=has_strip) if view is None else view
         ax = _new_axes(view, style)
@@ -166,12 +173,14 @@ def draw_leaf(
     ax.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
     ax.set_axis_off()
     draw_blade(ax, moment.blade, style)
-    key = _draw_veins(ax, moment, view, color, widths or WidthParameters(), style)
+    painted = Paint(color, style, moment.step if last_step is None else last_step)
+    coloring = _draw_veins(ax, moment, view, painted, widths or WidthParameters())
     if sources:
-        draw_sources(ax, moment.sources, style)
+        draw_sources(ax, moment.sources, style, view.points_per_length)
     if scale_bar:
         draw_scale_bar(ax, view.box, LengthUnit.from_table(units), view.points_per_length)
-    draw_key(ax, key.key)
+    if key:
+        draw_key(ax, coloring.key)
     figure = ax.get_figure(root=True)
     assert figure is not None
     return figure
@@ -242,19 +251,18 @@ def _draw_veins(
     ax: Axes,
     moment: Moment,
     view: View,
-    color: str,
+    paint: Paint,
     widths: WidthParameters,
-    style: LeafStyle,
 ) -> Coloring:
     """Draw all segments, the finest first."""
     network = moment.network
     directions = descent(network)
     counted = pipes(network, veinlets=widths.veinlets, directions=directions)
-    coloring = color_segments(network, color, directions, counted, style)
-    fitted = _fit(moment, counted, widths, style, view)
+    coloring = color_segments(network, paint, directions, counted)
+    fitted = _fit(moment, counted, widths, paint.style, view)
     most = float(counted.nodes.max(initial=1.0))
     lines = 2.0 * view.points_per_length * radii(counted.segments, fitted, most)
-    classes, class_widths = width_classes(lines, style.n_classes)
+    classes, class_widths = width_classes(lines, paint.style.n_classes)
     looks = classes * len(coloring.palette) + coloring.classes
     _add_strokes(ax, moment, directions, looks, class_widths, coloring)
     return coloring

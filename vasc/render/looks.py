@@ -67,6 +67,27 @@ class Key:
 
 
 @dataclass(frozen=True)
+class Paint:
+    """What the colours of a picture are to tell.
+
+    Parameters
+    ----------
+    color : {"width", "order", "age", "source", "kind", "state"}
+        Nothing beyond the width; the order of branching (see
+        :func:`vasc.analysis.branch_orders`); the step of birth; the source that
+        caused the vein; extension, join or refinement; differentiation.
+    style : LeafStyle
+        The colour of plain veins.
+    last_step : int
+        The step that the colour of the youngest veins stands for.
+    """
+
+    color: str
+    style: LeafStyle
+    last_step: int
+
+
+@dataclass(frozen=True)
 class Coloring:
     """A colour for every segment.
 
@@ -149,7 +170,7 @@ def width_classes(widths: Floats, n_classes: int) -> tuple[NDArray[np.int64], Fl
 
 
 def color_segments(
-    network: VeinNetwork, color: str, directions: Descent, counted: Pipes, style: LeafStyle
+    network: VeinNetwork, paint: Paint, directions: Descent, counted: Pipes
 ) -> Coloring:
     """Choose a colour for every segment.
 
@@ -157,14 +178,10 @@ def color_segments(
     ----------
     network : VeinNetwork
         The veins.
-    color : {"width", "order", "age", "source", "kind", "state"}
-        What colours tell: nothing beyond the width; the order of branching (see
-        :func:`vasc.analysis.branch_orders`); the step of birth; the source that
-        caused the vein; extension, join or refinement; differentiation.
+    paint : Paint
+        What colours are to tell.
     directions, counted
         The network's descent and pipes.
-    style : LeafStyle
-        The colour of plain veins.
 
     Returns
     -------
@@ -173,15 +190,16 @@ def color_segments(
     Raises
     ------
     VascError
-        If ``color`` is none of these.
+        If ``paint.color`` is none of the choices.
     """
+    color, style = paint.color, paint.style
     if color == "width":
         plain = np.zeros(network.n_segments, dtype=np.int64)
         return Coloring(plain, (style.vein,), Key())
     if color == "order":
         return _by_order(network, directions, counted)
     if color == "age":
-        return _by_age(network, directions)
+        return _by_age(network, directions, paint.last_step)
     if color == "source":
         causes = network.causes[grown_nodes(network, directions)].astype(np.int64)
         palette = (*SOURCE_COLORS, style.vein)
@@ -212,14 +230,11 @@ def _by_order(network: VeinNetwork, directions: Descent, counted: Pipes) -> Colo
     return Coloring(np.minimum(orders, n_colors).astype(np.int64) - 1, ORDER_COLORS, key)
 
 
-def _by_age(network: VeinNetwork, directions: Descent) -> Coloring:
-    """Colour by the step at which each vein grew."""
-    births = network.births[grown_nodes(network, directions)].astype(np.float64)
-    first, last = births.min(initial=np.inf), births.max(initial=0.0)
-    first = min(first, last)
-    span = max(last - first, 1.0)
-    classes = np.rint((births - first) / span * (AGE_CLASSES - 1)).astype(np.int64)
-    key = Key("step of birth", (f"{first:.0f}", f"{last:.0f}"), AGE_COLORS, is_gradient=True)
+def _by_age(network: VeinNetwork, directions: Descent, last_step: int) -> Coloring:
+    """Colour by the step at which each vein grew, from step 0 on."""
+    births = network.births[grown_nodes(network, directions)] / max(last_step, 1)
+    classes = np.rint(np.clip(births, 0.0, 1.0) * (AGE_CLASSES - 1)).astype(np.int64)
+    key = Key("step of birth", ("0", str(last_step)), AGE_COLORS, is_gradient=True)
     return Coloring(classes, gradient(AGE_COLORS, AGE_CLASSES), key)
 
 

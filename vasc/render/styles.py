@@ -37,7 +37,7 @@ SOURCE_COLORS = (
 KIND_COLORS = {"extension": "#23401f", "join": "#c8102e", "refinement": "#5c8a54"}
 STATE_COLORS = {"vein": "#23401f"}
 SOURCE_STATE_COLORS = {"active": "#c8102e", "tagged": "#f08a24"}
-AGE_COLORS = ("#102c54", "#1f6f8b", "#3fa796", "#9ccf6a", "#f2d34b")
+AGE_COLORS = ("#16215b", "#5a2a82", "#a02c74", "#d64a4b", "#ef8a1d")
 """From the oldest vein to the youngest."""
 
 

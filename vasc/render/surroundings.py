@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
     from vasc.domain import Blade
 
+SMALLEST_DOT = 0.8
+"""Diameter of a source at least, in pt."""
 Box = tuple[float, float, float, float]
 """Left, bottom, right, top, in lengths."""
 
@@ -54,7 +56,9 @@ def draw_blade(axes: Axes, blade: Blade, style: LeafStyle) -> None:
     )
 
 
-def draw_sources(axes: Axes, sources: SourceSet, style: LeafStyle) -> None:
+def draw_sources(
+    axes: Axes, sources: SourceSet, style: LeafStyle, points_per_length: float
+) -> None:
     """Draw live sources as dots: one colour for active, another for tagged ones.
 
     Parameters
@@ -64,15 +68,18 @@ def draw_sources(axes: Axes, sources: SourceSet, style: LeafStyle) -> None:
     sources : SourceSet
         The live sources; it may be empty.
     style : LeafStyle
-        The size of the dots.
+        The size of the dots; they are smaller where sources are dense.
+    points_per_length : float
+        Scale of the drawing, pt per D.
     """
+    size = min(style.source_size, 0.5 * _typical_distance(sources.positions) * points_per_length)
     for state in (SourceState.ACTIVE, SourceState.TAGGED):
         places = sources.positions[sources.states == state]
         axes.plot(
             *places.T,
             linestyle="none",
             marker="o",
-            markersize=style.source_size,
+            markersize=max(size, SMALLEST_DOT),
             markerfacecolor=SOURCE_STATE_COLORS[state.name.lower()],
             markeredgewidth=0.0,
             zorder=4.0,
@@ -116,13 +123,22 @@ def draw_scale_bar(axes: Axes, box: Box, unit: LengthUnit, points_per_length: fl
     axes.text(
         x + shown / 2.0,
         y + 3.0 / points_per_length,
-        f"{length:g} {unit.symbol}",
+        unit.label(length),
         ha="center",
         va="bottom",
         fontsize=TEXT_SIZE,
         color=INK,
         zorder=5.0,
     )
+
+
+def _typical_distance(places: Points) -> float:
+    """Give the median distance to the nearest other place, infinite for fewer than two."""
+    if len(places) < 2:
+        return math.inf
+    from scipy.spatial import cKDTree
+
+    return float(np.median(cKDTree(places).query(places, k=2)[0][:, 1]))
 
 
 def _turned(rings: tuple[Points, ...]) -> list[Points]:
