@@ -1,0 +1,122 @@
+"""What a user sees when something goes wrong: a line, and an exit code."""
+
+import difflib
+import os
+import sys
+import traceback
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from typing import TextIO
+
+import typer
+
+from vasc.errors import ConfigError, VascError
+
+BAD_INPUT = 2
+FAILED_RUN = 3
+INTERRUPTED = 130
+
+
+def report(error: BaseException, *, with_traceback: bool) -> int:
+    """Write what went wrong to the terminal.
+
+    Parameters
+    ----------
+    error : BaseException
+        What ended a verb.
+    with_traceback : bool
+        Show where it came from, too.
+
+    Returns
+    -------
+    int
+        The exit code that belongs to it.
+    """
+    if with_traceback:
+        traceback.print_exception(error)
+    lines, code = _described(error)
+    for line in lines:
+        complain(line)
+    return code
+
+
+def complain(line: str) -> None:
+    """Write one line to the error output, whatever characters it holds."""
+    with suppress(OSError, ValueError):
+        encoding = getattr(sys.stderr, "encoding", None) or "utf-8"
+        sys.stderr.write(line.encode(encoding, "backslashreplace").decode(encoding) + "\n")
+        sys.stderr.flush()
+
+
+def silence_output() -> None:
+    """Let Python close an output nobody reads without a complaint."""
+    with suppress(OSError, ValueError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)
+
+
+@contextmanager
+def without_lines_of_code() -> Iterator[None]:
+    """Show warnings as one line each, without the code they came from."""
+
+    def shown(
+        message: Warning | str,
+        category: type[Warning],
+        filename: str,
+        lineno: int,
+        file: TextIO | None = None,
+        line: str | None = None,
+    ) -> None:
+        complain(f"warning: {_one_line(str(message))}")
+
+    before = warnings.showwarning
+    warnings.showwarning = shown
+    try:
+        yield
+    finally:
+        warnings.showwarning = before
+
+
+def _described(error: BaseException) -> tuple[list[str], int]:
+    """Give the lines and the exit code of an error."""
+    if isinstance(error, ConfigError):
+        return error.problems, error.exit_code
+    if isinstance(error, VascError):
+        return [_one_line(str(error))], error.exit_code
+    if isinstance(error, KeyboardInterrupt | typer.Abort):
+        return ["interrupted"], INTERRUPTED
+    # usage errors of the library that reads the command line know how to say it
+    say = getattr(error, "format_message", None)
+    if say is not None:
+        return [_usage(error, say())], int(getattr(error, "exit_code", BAD_INPUT))
+    if isinstance(error, MemoryError):
+        return ["not enough memory for this"], FAILED_RUN
+    if isinstance(error, OSError):
+        where = f"{error.filename}: " if error.filename else ""
+        return [_one_line(f"{where}{error.strerror or error}")], FAILED_RUN
+    name = type(error).__name__
+    return [
+        f"unexpected {name}: {_one_line(str(error)) or 'no message'}"
+        " (once more with --debug shows where; please report it)"
+    ], FAILED_RUN
+
+
+def _usage(error: BaseException, message: str) -> str:
+    """Describe a wrong command line."""
+    context = getattr(error, "ctx", None)
+    path = getattr(context, "command_path", "vasc")
+    line = _one_line(message).rstrip(".")
+    command = getattr(context, "command", None)
+    verbs = list(getattr(command, "commands", {}) or {})
+    word = line.partition("'")[2].partition("'")[0]
+    if "No such command" in line and verbs and "Did you mean" not in line:
+        close = difflib.get_close_matches(word, verbs, n=1)
+        line += f"; did you mean '{close[0]}'?" if close else f"; verbs: {', '.join(verbs)}"
+    return f"{path}: {line} (`{path} --help` shows an example)"
+
+
+def _one_line(text: str) -> str:
+    """Put a text on one line."""
+    return " ".join(text.split())

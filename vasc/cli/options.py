@@ -1,0 +1,31 @@
+"""Arguments and options that several verbs share."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+RunFile = Annotated[Path, typer.Argument(metavar="RUN.h5", help="A recorded run.")]
+
+AsJson = Annotated[bool, typer.Option("--json", help="Write JSON, for scripts.")]
+
+Step = Annotated[int, typer.Option("--step", min=-1, help="A recorded step; -1 is the last one.")]
+
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Write nothing but errors.")]
+
+Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.")]
+
+Output = Annotated[
+    Path, typer.Option("--output", "-o", metavar="FILE", help="Where to write; see above.")
+]
+
+MoreSteps = Annotated[
+    int | None,
+    typer.Option("--steps", min=1, help="Make that many steps at most; `vasc resume` goes on."),
+]
+
+Color = Annotated[str, typer.Option("--color", help="One of width, order, age, source.")]
+
+WithSources = Annotated[bool, typer.Option("--sources", help="Draw the live sources, too.")]
+
+ScaleBar = Annotated[bool, typer.Option("--scale-bar/--no-scale-bar", help="Draw a scale bar.")]

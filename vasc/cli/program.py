@@ -1,0 +1,102 @@
+"""The program: its verbs, and how it ends."""
+
+import sys
+from collections.abc import Sequence
+from typing import Annotated
+
+import typer
+
+from vasc.cli import (
+    animate,
+    configs,
+    events,
+    lineage,
+    render,
+    resume,
+    run,
+    schema,
+    show,
+    stats,
+    verify,
+)
+from vasc.cli.failures import report, silence_output, without_lines_of_code
+
+# the order of a first day with vasc
+VERBS = (configs, run, resume, show, events, lineage, stats, render, animate, verify, schema)
+
+DEBUG = "--debug"
+
+
+def examples(lines: Sequence[str]) -> str:
+    """Lay out examples below the help of a verb; the mark keeps the lines apart."""
+    return "\n".join(["\b", "Example:" if len(lines) == 1 else "Examples:", *lines])
+
+
+# plain help: rich takes longer to load than all else that a verb's help needs
+app = typer.Typer(
+    name="vasc",
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+)
+for _module in VERBS:
+    _name = _module.__name__.rpartition(".")[2]
+    app.command(_name, epilog=examples(_module.EXAMPLES))(getattr(_module, _name))
+
+
+@app.callback(invoke_without_command=True, epilog=examples(["vasc run poplar-leaf"]))
+def _program(
+    context: typer.Context,
+    version: Annotated[bool, typer.Option("--version", help="Show the version and exit.")] = False,
+    debug: Annotated[
+        bool, typer.Option(DEBUG, help="Show the traceback of an error; may stand anywhere.")
+    ] = False,
+) -> None:
+    """Grow the veins of leaves, record every step, and draw them.
+
+    Exit codes: 0 fine, 1 a check failed, 2 bad input, 3 a failed run, 130 interrupted.
+    """
+    if version:
+        import vasc
+
+        typer.echo(f"vasc {vasc.__version__}")
+    elif context.invoked_subcommand is None:
+        typer.echo(context.get_help())
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the program.
+
+    No error leaves it as a traceback, unless ``--debug`` asks for one.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        What follows the program's name; those of the process when not given.
+
+    Returns
+    -------
+    int
+        The exit code.
+    """
+    arguments = list(sys.argv[1:] if arguments is None else arguments)
+    own = arguments[: arguments.index("--")] if "--" in arguments else arguments
+    rest = arguments[len(own) :]
+    try:
+        with without_lines_of_code():
+            code = app(
+                [word for word in own if word != DEBUG] + rest,
+                prog_name="vasc",
+                standalone_mode=False,
+            )
+        sys.stdout.flush()
+    except SystemExit as error:
+        return error.code if isinstance(error.code, int) else 1
+    except BrokenPipeError:
+        # whoever reads the output has seen enough, as `head` does
+        silence_output()
+        return 0
+    except BaseException as error:
+        return report(error, with_traceback=DEBUG in own)
+    return code if isinstance(code, int) else 0

@@ -1,0 +1,156 @@
+"""``vasc run``: grow a leaf and record it."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from vasc.cli.options import AsJson, Force, MoreSteps, Quiet
+
+if TYPE_CHECKING:
+    from vasc.config import Experiment
+    from vasc.config.regime import Regime
+
+
+EXAMPLES = (
+    "vasc run poplar-leaf",
+    "vasc run my-leaf.toml -o my.h5 --seed 2 --set growth.final_length=2000",
+)
+
+
+def run(
+    config: Annotated[
+        str,
+        typer.Argument(metavar="CONFIG", help="A TOML file, or a name that `vasc configs` lists."),
+    ],
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output", "-o", metavar="RUN.h5", help="The timeline; by default CONFIG.h5."
+        ),
+    ] = None,
+    seed: Annotated[
+        int | None, typer.Option("--seed", help="Instead of the config's seed.")
+    ] = None,
+    changes: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set", metavar="KEY=VALUE", help="Instead of a value of the config; repeat."
+        ),
+    ] = None,
+    steps: MoreSteps = None,
+    figure: Annotated[
+        Path | None,
+        typer.Option("--figure", metavar="FILE", help="png, svg or pdf; by default beside RUN.h5."),
+    ] = None,
+    no_figure: Annotated[bool, typer.Option("--no-figure", help="Draw no picture.")] = False,
+    force: Force = False,
+    quiet: Quiet = False,
+    as_json: AsJson = False,
+) -> None:
+    """Run an experiment: record every step, and draw the last one."""
+    from vasc.cli.interrupts import Interrupts
+    from vasc.cli.progress import ProgressLine
+    from vasc.cli.summary import end_if_interrupted, print_summary
+    from vasc.config import load, parse_override
+    from vasc.config.regime import regime
+
+    if figure is not None and no_figure:
+        raise typer.BadParameter("--figure and --no-figure exclude each other")
+    overrides = [parse_override(change) for change in changes or ()]
+    if seed is not None:
+        overrides.append((("seed",), seed))
+    experiment = load(config, overrides)
+    output = Path(f"{experiment.name}.h5") if output is None else output
+    if not no_figure:
+        figure = output.with_suffix(".png") if figure is None else figure
+    check_outputs(config, output, figure, force=force)
+    expected = regime(experiment.parameters)
+    if not (quiet or as_json):
+        _print_expected(experiment, expected)
+
+    from vasc import experiment as experiments
+
+    with Interrupts() as interrupts, ProgressLine(quiet=quiet) as progress:
+        summary = experiments.run(
+            experiment,
+            output,
+            force=force,
+            steps=steps,
+            observers=[progress],
+            should_stop=interrupts.should_stop,
+        )
+    end_if_interrupted(summary, interrupts)
+    files = [output]
+    if figure is not None:
+        from vasc.render import render
+
+        files.append(render(output, figure))
+    if as_json or not quiet:
+        print_summary(summary, files, as_json=as_json)
+
+
+def check_outputs(config: str, output: Path, figure: Path | None, *, force: bool) -> None:
+    """Refuse, before anything is made, files that cannot or must not be written.
+
+    Raises
+    ------
+    OutputError
+        If a file exists and ``force`` is not set, its folder does not exist, or
+        two of the files are one.
+    """
+    from vasc.errors import OutputError
+    from vasc.render import PICTURE_SUFFIXES
+    from vasc.timeline.storage import check_output
+
+    named = [("config", Path(config)), ("timeline", output)]
+    if figure is not None:
+        named.append(("picture", figure))
+    for index, (kind, path) in enumerate(named[1:], start=1):
+        for other_kind, other in named[:index]:
+            if path.absolute() == other.absolute() or (path.exists() and _is_same(path, other)):
+                raise OutputError(f"{path}: cannot be {other_kind} and {kind} at once")
+    check_output(output, force=force)
+    if figure is not None:
+        if figure.suffix.lower() not in PICTURE_SUFFIXES:
+            known = ", ".join(PICTURE_SUFFIXES)
+            raise OutputError(f"{figure}: suffix {figure.suffix!r} is not one of {known}")
+        check_picture(figure, force=force)
+
+
+def check_picture(figure: Path, *, force: bool) -> None:
+    """Refuse a picture that exists, or whose folder does not.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be written.
+    """
+    from vasc.errors import OutputError
+
+    if not figure.parent.is_dir():
+        raise OutputError(f"{figure}: the folder {str(figure.parent)!r} does not exist")
+    if figure.is_dir():
+        raise OutputError(f"{figure}: is a folder")
+    if figure.exists() and not force:
+        raise OutputError(f"{figure}: exists already; use --force to replace it")
+
+
+def _is_same(path: Path, other: Path) -> bool:
+    """Tell whether two names lead to one file."""
+    return other.exists() and path.samefile(other)
+
+
+def _print_expected(experiment: "Experiment", expected: "Regime") -> None:
+    """Write what is run, and what pattern to expect of it."""
+    from vasc.cli.failures import complain
+
+    parameters = experiment.parameters
+    typer.echo(
+        f"{experiment.name}: {experiment.kind} venation, {parameters.growth.kind} growth,"
+        f" seed {parameters.seed}"
+    )
+    for sentence in expected.sentences:
+        typer.echo(f"  {sentence}")
+    for warning in expected.warnings:
+        complain(f"warning: {warning}")

@@ -1,0 +1,112 @@
+"""``vasc show``: what a recorded run is."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from vasc.cli.options import AsJson, RunFile
+
+if TYPE_CHECKING:
+    from vasc.timeline import Timeline
+
+
+EXAMPLES = (
+    "vasc show poplar-leaf.h5",
+    "vasc show poplar-leaf.h5 --check",
+)
+
+
+def show(
+    path: RunFile,
+    check: Annotated[
+        bool, typer.Option("--check", help="Hold the file against its specification.")
+    ] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Show what a run is, how it was made, its sizes and events."""
+    if check:
+        _check(path, as_json=as_json)
+        return
+    from vasc.cli.printing import print_json
+    from vasc.timeline import Timeline
+
+    with Timeline(path) as timeline:
+        if as_json:
+            print_json(described(timeline))
+        else:
+            _print(timeline, path)
+
+
+def described(timeline: "Timeline") -> dict[str, Any]:
+    """Give what ``show --json`` promises to scripts."""
+    from vasc.config.loading import FILES_KEY
+    from vasc.timeline.layout import FORMAT
+
+    counts = timeline.events.counts()
+    refined = counts.get("segment_refined", 0)
+    placed = timeline.n_rows("sources")
+    sessions = [session.get("wall_seconds", {}) for session in timeline.provenance]
+    frames = timeline.frames
+    return {
+        "format": FORMAT,
+        "version": timeline.version,
+        "model": timeline.model,
+        "growth": timeline.growth,
+        "seed": timeline.seed,
+        "steps": timeline.last_step,
+        "time": float(frames["time"][-1]) if timeline.n_frames else None,
+        "complete": timeline.is_complete,
+        "stop_reason": timeline.stop_reason,
+        "nodes": timeline.n_rows("nodes"),
+        "segments": timeline.n_rows("segments") - refined,
+        "sources_placed": placed,
+        "sources_active": placed - counts.get("source_removed", 0),
+        "events": counts,
+        "wall_seconds": sum(float(seconds.get("total", 0.0)) for seconds in sessions),
+        "config": {key: value for key, value in timeline.config.items() if key != FILES_KEY},
+    }
+
+
+def _print(timeline: "Timeline", path: Path) -> None:
+    """Write the same for people."""
+    from vasc.cli.printing import file_size, print_pairs
+    from vasc.cli.summary import REASONS
+
+    found = described(timeline)
+    config, events = found.pop("config"), found.pop("events")
+    reason = found.pop("stop_reason")
+    typer.echo(f"{path}: {config.get('title') or 'untitled'}")
+    if config.get("reference"):
+        typer.echo(f"after {config['reference']}")
+    ended = REASONS.get(reason, reason) if reason else f"not yet; `vasc resume {path}` goes on"
+    typer.echo()
+    print_pairs(found | {"ended": ended, "size": file_size(path.stat().st_size)})
+    typer.echo("\nevents")
+    print_pairs(events, indent="  ")
+    typer.echo("\nsessions")
+    for session in timeline.provenance:
+        software = session.get("software", {})
+        typer.echo(
+            f"  {session.get('kind', 'run')} {session.get('started', '')}"
+            f" with vasc {software.get('vasc', '?')}: {session.get('outcome', 'killed')}"
+        )
+    typer.echo("\nconfig")
+    typer.echo("".join(f"  {line}\n" for line in timeline.config_toml.splitlines()), nl=False)
+
+
+def _check(path: Path, *, as_json: bool) -> None:
+    """Validate the file; findings end the program with 1."""
+    from vasc.cli.printing import print_json
+    from vasc.timeline import validate
+
+    findings = validate(path)
+    if as_json:
+        print_json({"findings": findings, "pass": not findings})
+    elif findings:
+        for finding in findings:
+            typer.echo(f"{path}: {finding}")
+    else:
+        typer.echo(f"{path}: keeps to its specification")
+    if findings:
+        raise typer.Exit(1)

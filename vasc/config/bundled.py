@@ -1,0 +1,130 @@
+"""The experiments that come with vasc, by name."""
+
+import difflib
+from dataclasses import dataclass
+from pathlib import Path
+
+from vasc.config.attachments import referenced_files
+from vasc.config.reading import parse, read_text
+from vasc.errors import ConfigError, OutputError
+
+_PACKAGE = Path(__file__).resolve().parent.parent
+
+
+@dataclass(frozen=True)
+class Bundled:
+    """One experiment that comes with vasc.
+
+    Parameters
+    ----------
+    name : str
+        The name ``vasc run`` takes.
+    title : str
+        A sentence on what it grows.
+    path : Path
+        Its file.
+    """
+
+    name: str
+    title: str
+    path: Path
+
+
+def bundled_folder() -> Path:
+    """Give the folder of the bundled experiments, of the package or of a source checkout."""
+    packaged = _PACKAGE / "_configs"
+    return packaged if packaged.is_dir() else _PACKAGE.parent / "configs"
+
+
+def bundled_paths() -> dict[str, Path]:
+    """Give the files of the bundled experiments by name, in the order of the names."""
+    return {path.stem: path for path in sorted(bundled_folder().glob("*.toml"))}
+
+
+def bundled_configs() -> list[Bundled]:
+    """Give the bundled experiments, in the order of their names."""
+    found = []
+    for name, path in bundled_paths().items():
+        tables = parse(read_text(path), name)
+        found.append(Bundled(name, str(tables.get("title", "")), path))
+    return found
+
+
+def find_config(source: str | Path) -> Path:
+    """Give the file of a config, which is a file or the name of a bundled experiment.
+
+    Parameters
+    ----------
+    source : str or Path
+        What the user wrote; a file comes before a bundled name.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    ConfigError
+        If there is neither.
+    """
+    path = Path(source)
+    known = bundled_paths()
+    try:
+        if path.is_file() or (path.exists() and str(source) not in known):
+            return path
+    except (OSError, ValueError) as error:
+        raise ConfigError(f"{str(source)[:80]!r}: is not the name of a file") from error
+    if str(source) in known:
+        return known[str(source)]
+    close = difflib.get_close_matches(path.stem, known, n=1)
+    nearest = f"; nearest: {close[0]}" if close else ""
+    raise ConfigError(
+        f"{source}: there is no such file and no bundled experiment of that name{nearest}"
+        " (`vasc configs` lists them)"
+    )
+
+
+def copy_bundled(name: str, folder: Path) -> list[Path]:
+    """Write a bundled experiment, and the files it refers to, into a folder.
+
+    Parameters
+    ----------
+    name : str
+        Name of the experiment.
+    folder : Path
+        An existing folder.
+
+    Returns
+    -------
+    list of Path
+        The files written, the config first; a file that is there with the same
+        bytes is left alone.
+
+    Raises
+    ------
+    ConfigError
+        If there is no experiment of that name.
+    OutputError
+        If the folder does not exist or a file would be overwritten.
+    """
+    known = bundled_paths()
+    if name not in known:
+        close = difflib.get_close_matches(name, known, n=1)
+        nearest = f"; nearest: {close[0]}" if close else f"; there are: {', '.join(known)}"
+        raise ConfigError(f"{name}: no bundled experiment has that name{nearest}")
+    if not folder.is_dir():
+        raise OutputError(f"{folder}: there is no such folder")
+    tables = parse(read_text(known[name]), name)
+    sources = {known[name].name: known[name]}
+    for reference in referenced_files(tables).values():
+        sources[reference] = known[name].parent / reference
+    contents = {folder / target: source.read_bytes() for target, source in sources.items()}
+    for index, (target, content) in enumerate(contents.items()):
+        if target.exists() and (index == 0 or target.read_bytes() != content):
+            raise OutputError(f"{target}: exists; move it away or copy into another folder")
+    missing = {target: content for target, content in contents.items() if not target.exists()}
+    for target, content in missing.items():
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes(content)
+    return list(missing)

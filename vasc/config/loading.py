@@ -1,0 +1,185 @@
+"""From a config, a file or a bundled name, to checked parameters."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from vasc.config.attachments import missing_files, packed, unpacked
+from vasc.config.bundled import find_config
+from vasc.config.overrides import Override, overridden
+from vasc.config.reading import parse, read_text
+from vasc.config.values import assignment
+from vasc.errors import ConfigError, TimelineError
+
+if TYPE_CHECKING:
+    from vasc.models.base import Venation
+
+FILES_KEY = "files"
+"""Key of a timeline's config under which the referenced files travel."""
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """A config that has been read and checked.
+
+    Parameters
+    ----------
+    name : str
+        Name of the config, without folder and suffix.
+    parameters : Venation
+        What to run.
+    toml : str
+        The config as it was given, with the values set outside of the file.
+    folder : Path
+        What the files that the config refers to are relative to.
+    files : dict
+        The referenced files by name, packed as texts.
+    """
+
+    name: str
+    parameters: "Venation"
+    toml: str
+    folder: Path
+    files: dict[str, str] = field(default_factory=dict, repr=False)
+
+    @property
+    def kind(self) -> str:
+        """Name of the model."""
+        return str(self.parameters.model_dump(include={"kind"})["kind"])
+
+    @property
+    def tables(self) -> dict[str, Any]:
+        """The config as plain tables, with every default filled in."""
+        from vasc.config.schema import resolved_tables
+
+        return resolved_tables(self.parameters)
+
+    @property
+    def record(self) -> dict[str, Any]:
+        """What a timeline keeps, so that the run can be repeated from it alone."""
+        return self.tables | ({FILES_KEY: self.files} if self.files else {})
+
+
+def load(source: str | Path, overrides: Iterable[Override] = ()) -> Experiment:
+    """Read and check a config.
+
+    Parameters
+    ----------
+    source : str or Path
+        A TOML file, or the name of a bundled experiment.
+    overrides : iterable of Override
+        Values that replace those of the file, see :func:`parse_override`.
+
+    Returns
+    -------
+    Experiment
+        The checked parameters, and what is needed to run them again.
+
+    Raises
+    ------
+    ConfigError
+        With one line for every problem: key, value and what is allowed.
+    """
+    path = find_config(source)
+    text = read_text(path)
+    changes = list(overrides)
+    return load_text(text, name=path.stem, folder=path.parent, label=str(source), overrides=changes)
+
+
+def load_text(
+    text: str,
+    *,
+    name: str = "config",
+    folder: Path = Path(),
+    label: str = "",
+    overrides: Iterable[Override] = (),
+) -> Experiment:
+    """Check a config that is already in memory.
+
+    Parameters
+    ----------
+    text : str
+        The TOML.
+    name : str
+        Name of the experiment.
+    folder : Path
+        What files are relative to.
+    label : str
+        What messages begin with; the name if not given.
+    overrides : iterable of Override
+        Values that replace those of the text.
+
+    Returns
+    -------
+    Experiment
+        The checked parameters.
+
+    Raises
+    ------
+    ConfigError
+        With one line for every problem.
+    """
+    label, changes = label or name, list(overrides)
+    tables = parse(text, label)
+    if changes:
+        tables = overridden(tables, changes)
+    parameters = _checked(tables, folder, label)
+    toml = _rewritten(tables, changes) if changes else text
+    return Experiment(name, parameters, toml, folder, packed(tables, folder))
+
+
+@contextmanager
+def experiment_from_record(record: Mapping[str, Any], *, name: str) -> Iterator[Experiment]:
+    """Make the experiment that a timeline holds; its files exist as long as the context.
+
+    Parameters
+    ----------
+    record : mapping
+        What :attr:`Experiment.record` gave.
+    name : str
+        What messages begin with.
+
+    Yields
+    ------
+    Experiment
+        The same experiment.
+
+    Raises
+    ------
+    ConfigError
+        If this version cannot read the config.
+    TimelineError
+        If the recorded files are damaged.
+    """
+    tables = {key: value for key, value in record.items() if key != FILES_KEY}
+    files = record.get(FILES_KEY, {})
+    if not isinstance(files, dict):
+        raise TimelineError(f"{name}: the recorded files are damaged")
+    with unpacked(tables, files) as (renamed, folder):
+        parameters = _checked(renamed, folder, f"{name}: config")
+        yield Experiment(name, parameters, "", folder, files)
+
+
+def _checked(tables: dict[str, Any], folder: Path, label: str) -> "Venation":
+    """Check tables and files; every problem becomes one line that begins with the label."""
+    from vasc.config.schema import parameters_from
+
+    problems: list[str] = []
+    try:
+        parameters = parameters_from(tables)
+    except ConfigError as error:
+        problems += error.problems
+    problems += missing_files(tables, folder)
+    if problems:
+        raise ConfigError([f"{label}: {problem}" for problem in problems])
+    return parameters  # type: ignore[return-value]
+
+
+def _rewritten(tables: dict[str, Any], overrides: list[Override]) -> str:
+    """Write changed tables as TOML, headed by what was changed."""
+    import tomli_w
+
+    head = "".join(f"# set outside the file: {assignment(*change)}\n" for change in overrides)
+    return f"{head}\n{tomli_w.dumps(tables)}"

@@ -1,0 +1,145 @@
+"""What is wrong with a config: one line a problem, with key, value and what is allowed."""
+
+import difflib
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from vasc.config.allowed import Schema, allowed, kinds, listed, resolved
+from vasc.config.places import ABSENT, Place, find_place
+from vasc.config.values import Path, assignment, dotted, written
+
+if TYPE_CHECKING:
+    from pydantic import ValidationError
+
+FREE_TABLES = ("printed",)
+"""Tables whose keys are the writer's own, so that none of them is a misplaced one."""
+
+
+def problems(error: "ValidationError", tables: dict[str, Any], root: Schema) -> dict[Path, str]:
+    """Describe every problem that a validation found.
+
+    Parameters
+    ----------
+    error : pydantic.ValidationError
+        What the parameters refused.
+    tables : dict
+        The config as it was read.
+    root : mapping
+        JSON schema of the parameters.
+
+    Returns
+    -------
+    dict
+        From the path of a key to one line.
+    """
+    lines: dict[Path, str] = {}
+    off_branch: dict[Path, str] = {}
+    for detail in error.errors(include_url=False):
+        place = find_place(detail["loc"], tables, root)
+        if place.is_off_branch:
+            off_branch[place.path] = _wrong_value(place, root)
+            continue
+        path, line = _described(detail, place, tables, root)
+        # several rules of one table may fail, and each is worth its line
+        said = lines[path].split("\n") if path in lines else []
+        lines[path] = "\n".join(said if line in said else [*said, line])
+    for path, line in off_branch.items():
+        if not any(found[: len(path)] == path for found in lines):
+            lines[path] = line
+    return lines
+
+
+def unknown_kind(kind: Any, known: Sequence[str]) -> str:
+    """Describe a ``kind`` at the top of a config that names no model."""
+    if kind is ABSENT:
+        return f"kind: missing; must be one of {listed(list(known))}"
+    return f"{assignment(['kind'], kind)}: must be one of {listed(list(known))}" + nearest(
+        kind, known
+    )
+
+
+def nearest(word: Any, known: Iterable[str]) -> str:
+    """Give ``; nearest: ...`` for the known word most like this one, or nothing."""
+    close = difflib.get_close_matches(str(word), list(known), n=1, cutoff=0.5)
+    return f"; nearest: {written(close[0])}" if close else ""
+
+
+def _described(detail: Any, place: Place, tables: dict[str, Any], root: Schema) -> tuple[Path, str]:
+    """Give the key that is wrong and the line that says so."""
+    code = detail["type"]
+    if code in ("value_error", "assertion_error"):
+        return place.path, _broken_rule(place, str(detail["ctx"]["error"]))
+    if code == "extra_forbidden":
+        return place.path, _unknown_key(place, tables, root)
+    if code == "union_tag_not_found":
+        path = (*place.path, "kind")
+        return path, f"{dotted(path)}: missing; must be one of {listed(kinds(place.node or {}))}"
+    if code == "union_tag_invalid":
+        path, known = (*place.path, "kind"), kinds(place.node or {})
+        value = place.value["kind"]
+        line = f"{assignment(path, value)}: must be one of {listed(known)}{nearest(value, known)}"
+        return path, line
+    if code == "missing" and isinstance(place.path[-1], int):
+        # a list that is too short: the list is wrong, not its absent row
+        place = find_place(detail["loc"][:-1], tables, root)
+        return place.path, _wrong_value(place, root)
+    if code == "missing":
+        return place.path, _missing(place, root)
+    if code == "json_invalid" or place.node is None:
+        return place.path, _broken_rule(place, detail["msg"])
+    return place.path, _wrong_value(place, root)
+
+
+def _broken_rule(place: Place, reason: str) -> str:
+    """Describe what a rule of the parameters refused, in the rule's own words."""
+    if not place.path:
+        return reason
+    if place.value is ABSENT or isinstance(place.value, dict):
+        return f"{dotted(place.path)}: {reason}"
+    return f"{assignment(place.path, place.value)}: {reason}"
+
+
+def _wrong_value(place: Place, root: Schema) -> str:
+    """Describe a value that is of the wrong type or out of range."""
+    node = place.node or {}
+    line = f"{assignment(place.path, place.value)}: must be {allowed(node, root)}"
+    return line + (nearest(place.value, node["enum"]) if "enum" in node else "")
+
+
+def _missing(place: Place, root: Schema) -> str:
+    """Describe a key or table that has to be there."""
+    name, node = dotted(place.path), place.node or {}
+    if kinds(node):
+        return f"{name}: missing; add a table [{name}] with kind one of {listed(kinds(node))}"
+    if node.get("type") == "object":
+        needed = ", ".join(node.get("required", ()))
+        return f"{name}: missing; add a table [{name}]" + (f" with {needed}" if needed else "")
+    return f"{name}: missing; must be {allowed(node, root)}"
+
+
+def _unknown_key(place: Place, tables: dict[str, Any], root: Schema) -> str:
+    """Describe a key that does not exist, and the one that was probably meant."""
+    key, known = str(place.path[-1]), list((place.table or {}).get("properties", ()))
+    kind = (place.table or {}).get("properties", {}).get("kind", {}).get("const")
+    of_kind = f" for kind {written(kind)}" if kind and len(place.path) > 1 else ""
+    line = f"{assignment(place.path, place.value)}: unknown key{of_kind}"
+    if owners := [name for name in _owners(key, root) if name != dotted(place.path[:-1])]:
+        return f"{line}; it belongs in [{'] or ['.join(owners)}]"
+    return line + (nearest(key, known) or f"; allowed: {', '.join(known)}")
+
+
+def _owners(key: str, root: Schema) -> list[str]:
+    """Give the tables that have a key."""
+    return [
+        name
+        for name, node in resolved(root, root).get("properties", {}).items()
+        if name not in FREE_TABLES
+        and any(key in part.get("properties", ()) for part in _parts(node, root))
+    ]
+
+
+def _parts(node: Schema, root: Schema) -> list[Schema]:
+    """Give the schemas of all kinds of a table."""
+    node = resolved(node, root)
+    alternatives = node.get("oneOf") or node.get("anyOf") or [node]
+    return [resolved(part, root) for part in alternatives]

@@ -1,0 +1,162 @@
+"""The dimensionless numbers of a config that decide which pattern to expect.
+
+They are ratios of what a config holds, so that no run is needed to know them.
+"""
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from vasc.models.base import Venation
+
+MARGINAL_CLASSES = (
+    (1.0, "the tips of veins keep up with the margin: pinnate, with secondaries to the margin"),
+    (4.0, "a smooth midvein, arched secondaries and ladder-like tertiaries behind the margin"),
+    (math.inf, "the margin outruns the veins: a fan from the petiole, as without growth"),
+)
+"""Pattern of a marginally growing leaf by v, each up to the number before it."""
+
+ISOGONIC_CLASSES = (
+    (0.1, "growth outruns the veins: a fan from the petiole"),
+    (0.3, "between a fan and a leaf with a midvein"),
+    (1.5, "a midvein, secondaries and a fine reticulation"),
+    (math.inf, "veins cross the blade many times while it grows: no hierarchy of large veins"),
+)
+"""Pattern of an isogonically growing leaf by T, each up to the number before it."""
+
+MARGINAL_RANGE = (0.1, 6.0)
+ISOGONIC_RANGE = (0.1, 5.0)
+DART_RANGE = (0.002, 2.0)
+"""Outside of these, a config deserves a second look."""
+
+
+@dataclass(frozen=True)
+class Regime:
+    """What the numbers of a config let expect.
+
+    Parameters
+    ----------
+    numbers : dict of str to float
+        ``margin_speed`` (v, margin speed over vein speed), or ``crossing`` (T, the
+        fraction of the initial blade a vein can cross during growth), and
+        ``darts_per_spacing`` (rho b^2, darts per squared birth distance and step).
+    sentences : list of str
+        One a number: what it is and what it lets expect.
+    warnings : list of str
+        One for each number out of the useful range.
+    """
+
+    numbers: dict[str, float] = field(default_factory=dict)
+    sentences: list[str] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+
+
+def regime(parameters: "Venation") -> Regime:
+    """Give the numbers that decide the pattern of a leaf.
+
+    Parameters
+    ----------
+    parameters : Venation
+        A checked config.
+
+    Returns
+    -------
+    Regime
+        Numbers, what they mean, and warnings; empty for growths and placements
+        that are not known here.
+
+    References
+    ----------
+    A. Runions (2008). Modeling biological patterns using the space colonization
+    algorithm. MSc thesis, University of Calgary, sections 4.2.4 and 4.3.2.
+    """
+    found = Regime()
+    growth: Any = parameters.growth
+    if growth.kind == "marginal":
+        _marginal(growth.length_per_step / parameters.extension.segment_length, found)
+    elif growth.kind == "isogonic":
+        _isogonic(crossing(parameters), found)
+    elif growth.kind == "none":
+        found.sentences.append("no growth: veins fan out from the petiole toward all sources")
+    placement: Any = parameters.placement
+    if placement.kind == "darts":
+        _darts(placement.density * placement.birth_distance_sources**2, found)
+    return found
+
+
+def crossing(parameters: "Venation") -> float:
+    """Give T = (D / dL) ln(L_f / L_i) of an isogonically growing leaf."""
+    growth: Any = parameters.growth
+    ratio = growth.final_length / parameters.domain.length
+    return parameters.extension.segment_length / growth.length_per_step * math.log(ratio)
+
+
+def _marginal(speed: float, found: Regime) -> None:
+    """Judge the speed of the margin against that of the veins."""
+    found.numbers["margin_speed"] = speed
+    found.sentences.append(
+        f"v = {speed:.3g} (margin speed over vein speed): {_class_of(speed, MARGINAL_CLASSES)}"
+    )
+    low, high = MARGINAL_RANGE
+    if speed > high:
+        found.warnings.append(
+            f"v = {speed:.3g} is above {high:g}: expect a fan;"
+            " lower growth.length_per_step for a hierarchy of veins"
+        )
+    elif speed < low:
+        found.warnings.append(
+            f"v = {speed:.3g} is below {low:g}: veins wait for the margin in most steps;"
+            " a larger growth.length_per_step gives the same leaf sooner"
+        )
+
+
+def _isogonic(fraction: float, found: Regime) -> None:
+    """Judge the distance a vein covers during growth."""
+    found.numbers["crossing"] = fraction
+    found.sentences.append(
+        f"T = {fraction:.3g} (fraction of the initial blade a vein can cross during growth):"
+        f" {_class_of(fraction, ISOGONIC_CLASSES)}"
+    )
+    low, high = ISOGONIC_RANGE
+    if fraction < low:
+        found.warnings.append(
+            f"T = {fraction:.3g} is below {low:g}: expect a fan;"
+            " lower growth.length_per_step for a hierarchy of veins"
+        )
+    elif fraction > high:
+        found.warnings.append(
+            f"T = {fraction:.3g} is above {high:g}: veins wait for growth in most steps;"
+            " raise growth.length_per_step"
+        )
+
+
+def _darts(number: float, found: Regime) -> None:
+    """Judge how soon darts fill the room there is."""
+    low, high = DART_RANGE
+    sparse, dense = 0.02, 0.5
+    if number < sparse:
+        expected = "sources come late and irregularly"
+    elif number < dense:
+        expected = "sources follow growth, fairly evenly spaced"
+    else:
+        expected = "all room is filled at once, evenly"
+    found.numbers["darts_per_spacing"] = number
+    found.sentences.append(
+        f"rho b^2 = {number:.3g} (darts per squared birth distance and step): {expected}"
+    )
+    if number < low:
+        found.warnings.append(
+            f"rho b^2 = {number:.3g} is below {low:g}: few sources appear before growth ends;"
+            " raise placement.density or placement.birth_distance_sources"
+        )
+    elif number > high:
+        found.warnings.append(
+            f"rho b^2 = {number:.3g} is above {high:g}: nearly all darts are thrown in vain;"
+            " lower placement.density"
+        )
+
+
+def _class_of(number: float, classes: tuple[tuple[float, str], ...]) -> str:
+    """Give the first class that reaches up to a number."""
+    return next(text for limit, text in classes if number < limit)
