@@ -88,23 +88,43 @@ def test_a_model_of_your_own_is_checked_like_ours(extended):
     assert not (extended / "bad.h5").exists()
 
 
-def test_the_experiment_of_the_tutorial_has_loops_only_with_a_small_kill_distance(tmp_path):
+@pytest.fixture(scope="module")
+def tutorial(tmp_path_factory):
+    """Run the experiment of the tutorial as section 4 does."""
+    folder = tmp_path_factory.mktemp("tutorial")
     (config,) = (block for block in blocks("tutorial.md", "toml") if block.startswith("kind"))
-    (tmp_path / "my-leaf.toml").write_text(config)
-    cycles = {}
-    for distance in ("1", "6"):
-        output = f"{distance}.h5"
-        run = vasc(
-            tmp_path,
-            *("run", "my-leaf.toml", "-o", output, "--no-figure", "--quiet"),
-            *("--set", f"arrival.kill_distance={distance}"),
-        )
+    (folder / "my-leaf.toml").write_text(config)
+    (asked,) = (block for block in blocks("tutorial.md", "sh") if "far.h5 --set" in block)
+    for command in re.findall(r"^vasc (run .*)$", asked, flags=re.MULTILINE):
+        run = vasc(folder, *command.split(), "--no-figure", "--quiet")
         assert run.returncode == 0, run.stderr
-        with Timeline(tmp_path / output) as timeline:
+    return folder
+
+
+def test_the_tutorial_finds_loops_with_a_small_kill_distance_alone(tutorial):
+    cycles = {}
+    for name in ("near", "far"):
+        with Timeline(tutorial / f"{name}.h5") as timeline:
             network = timeline.frame().network
-            cycles[distance] = network.n_segments - network.n_nodes + 1
-    assert cycles["1"] > 10
-    assert cycles["6"] < cycles["1"] / 10
+            cycles[name] = network.n_segments - network.n_nodes + 1
+    assert cycles["near"] > 20
+    assert cycles["far"] < cycles["near"] / 10
+
+
+def test_the_python_of_the_tutorial_reads_the_run(tutorial):
+    (program,) = blocks("tutorial.md", "python")
+    (tutorial / "read.py").write_text(program)
+    read = subprocess.run(
+        [sys.executable, "read.py"],
+        cwd=tutorial,
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert read.returncode == 0, read.stderr
+    assert re.search(r"^0 1 0 0\.0$", read.stdout, flags=re.MULTILINE)
+    assert "source 0 lived from step" in read.stdout
 
 
 def test_the_tutorial_names_what_there_is():
@@ -116,8 +136,8 @@ def test_the_tutorial_names_what_there_is():
 
 
 def test_every_verb_of_the_readme_exists():
-    text = (ROOT / "README.md").read_text()
-    verbs = set(re.findall(r"^vasc ([a-z]+)", text, flags=re.MULTILINE))
+    text = "".join(blocks("../README.md", "sh"))
+    verbs = set(re.findall(r"(?:^|&& )vasc ([a-z]+)", text, flags=re.MULTILINE))
     for verb in sorted(verbs):
         shown = vasc(ROOT, verb, "--help")
         assert shown.returncode == 0, f"{verb}: {shown.stderr}"
