@@ -117,9 +117,7 @@ class Vasculature:
     def reserve_pulls(self, n_pairs: int) -> None:
         """Make room for the pulls of ``n_pairs`` source-node pairs."""
         if len(self.pulls.nodes) < n_pairs:
-            self.joins: set[tuple[int, int]] = set()
-        self.merged: dict[int, int] = {}
-        self.pulls = kernels.extension.pulls(n_pairs + n_pairs // 2)
+            self.pulls = kernels.extension.pulls(n_pairs + n_pairs // 2)
 
     def seed(self, material: Points, scale: float) -> None:
         """Begin with isolated nodes."""

@@ -155,7 +155,7 @@ class Venation(Parameters):
             placed = placement.placement(growth, kill)
         else:
             birth_distance = float("inf")
-            placed = placement.placement(growth, folder)
+            placed = placement.placement(growth, kill, folder)
         return {
             "growth": growth,
             "placement": placed,
