@@ -36,5 +36,5 @@ def quantity(meaning: str, *, unit: str = "", default: Any = ..., **bounds: Any)
     **bounds
         pydantic's bounds: ``gt``, ``ge``, ``lt``, ``le``, ``min_length``, ...
     """
-    extra = {"unit": unit} if unit else None
+    extra: dict[str, Any] | None = {"unit": unit} if unit else None
     return Field(default, description=meaning, json_schema_extra=extra, **bounds)

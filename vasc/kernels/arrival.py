@@ -9,9 +9,7 @@ from vasc.kernels.tags import Tags, is_tagged
 
 
 @compiled
-def reached_first(
-    live: NDArray[np.int32], perceived: Perceived, kill: float
-) -> NDArray[np.int32]:
+def reached_first(live: NDArray[np.int32], perceived: Perceived, kill: float) -> NDArray[np.int32]:
     """Give the sources with a node within the kill distance, ascending (open venation)."""
     reached = np.empty(len(live), dtype=np.int32)
     n_reached = 0

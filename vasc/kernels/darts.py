@@ -173,9 +173,7 @@ def throw(
 
 
 @compiled
-def keep_apart(
-    points: NDArray[np.float64], grid: HashGrid, limit: float
-) -> NDArray[np.int64]:
+def keep_apart(points: NDArray[np.float64], grid: HashGrid, limit: float) -> NDArray[np.int64]:
     """Go through points in order and keep each that is farther than ``limit`` (squared) from all.
 
     ``grid`` must be empty and have room for all points.

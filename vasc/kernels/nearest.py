@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from vasc.kernels.compiled import compiled
 from vasc.kernels.blocks import blocks_of
+from vasc.kernels.compiled import compiled
 from vasc.kernels.hash_grid import HashGrid, box_distance, nearest, squared_distance
 from vasc.kernels.perceived import OTHER_VEINS, SAME_VEINS, Perceived
 

@@ -1,5 +1,6 @@
 """What each source perceives: the few nodes it attracts, as rows of plain arrays."""
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -8,7 +9,7 @@ from numpy.typing import NDArray
 from vasc.kernels.compiled import compiled
 
 MAX_MEMBERS = 8
-"""A relative neighbourhood in the plane has at most six members, seven with a node on the source."""
+"""A relative neighbourhood has at most six members, seven with a node on the source."""
 
 NO_CHANGE = 0
 SAME_VEINS = 1
@@ -51,7 +52,8 @@ def perceived(capacity: int) -> Perceived:
 def enlarged(old: Perceived, capacity: int) -> Perceived:
     """Give a copy with room for more sources."""
     new = perceived(capacity)
-    for source, target in zip(old, new, strict=True):
+    pairs: Iterable[tuple[NDArray, NDArray]] = zip(old, new, strict=True)
+    for source, target in pairs:
         target[: len(source)] = source
     return new
 

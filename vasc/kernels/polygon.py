@@ -71,9 +71,7 @@ def is_inside(edge_grid: EdgeGrid, x: float, y: float) -> bool:
 
 
 @njit(cache=True)
-def are_inside(
-    edge_grid: EdgeGrid, points: NDArray[np.float64], scale: float
-) -> NDArray[np.bool_]:
+def are_inside(edge_grid: EdgeGrid, points: NDArray[np.float64], scale: float) -> NDArray[np.bool_]:
     """Tell which points, divided by ``scale``, are inside the polygon of an edge grid."""
     inside = np.empty(len(points), dtype=np.bool_)
     for i in range(len(points)):

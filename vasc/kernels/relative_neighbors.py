@@ -10,8 +10,8 @@ lose members to new nodes and gain new nodes, but never regain an old one.
 import numpy as np
 from numpy.typing import NDArray
 
-from vasc.kernels.compiled import compiled, inlined
 from vasc.kernels.blocks import blocks_of, box_far_distance
+from vasc.kernels.compiled import compiled, inlined
 from vasc.kernels.hash_grid import (
     HashGrid,
     _push_children,
@@ -29,9 +29,7 @@ PRUNE_SLACK = 1e-9
 
 
 @compiled
-def excludes(
-    u: int, u_distance: float, v: int, v_distance: float, between: float
-) -> bool:
+def excludes(u: int, u_distance: float, v: int, v_distance: float, between: float) -> bool:
     """Tell whether node u excludes node v from a source's neighbourhood.
 
     ``u_distance`` and ``v_distance`` are squared distances to the source,

@@ -1,5 +1,6 @@
 """Which veins a reached source still waits for (Runions 2008, section 4.3)."""
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -32,7 +33,8 @@ def tags(capacity: int) -> Tags:
 def enlarged(old: Tags, capacity: int) -> Tags:
     """Give a copy with room for more sources."""
     new = tags(capacity)
-    for source, target in zip(old, new, strict=True):
+    pairs: Iterable[tuple[NDArray, NDArray]] = zip(old, new, strict=True)
+    for source, target in pairs:
         target[: len(source)] = source
     return new
 

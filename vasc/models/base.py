@@ -2,7 +2,7 @@
 
 from abc import ABC, abstractmethod
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
@@ -99,9 +99,7 @@ class Venation(Parameters):
     domain: BladeParameters
     growth: AnyGrowth = quantity("How the blade grows.", default=NoGrowthParameters())
     placement: AnyPlacement = quantity("Where sources appear.")
-    extension: ExtensionParameters = quantity(
-        "How veins extend.", default=ExtensionParameters()
-    )
+    extension: ExtensionParameters = quantity("How veins extend.", default=ExtensionParameters())
     arrival: ArrivalParameters = quantity("When sources are reached.")
     refinement: AnyRefinement = quantity(
         "What becomes of stretched segments.", default=NoRefinementParameters()
@@ -145,7 +143,7 @@ class Venation(Parameters):
             )
         return self
 
-    def parts(self, folder: Path) -> dict[str, object]:
+    def parts(self, folder: Path) -> dict[str, Any]:
         """Give the parts of the sentence that do not depend on the kind of venation."""
         growth = self.growth.growth(self.domain.blade(folder))
         kill, length = self.arrival.kill_distance, self.extension.segment_length

@@ -80,9 +80,7 @@ class Extension:
             moment.step, np.stack([parents, children], axis=1), SegmentKind.EXTENSION
         )
         if branches.any():
-            veins.log(
-                moment.step, EventKind.VEIN_INITIATED, children[branches], parents[branches]
-            )
+            veins.log(moment.step, EventKind.VEIN_INITIATED, children[branches], parents[branches])
         if is_stalled.any():
             veins.log(
                 moment.step, EventKind.STALL_RESOLVED, parents[is_stalled], causes[is_stalled]

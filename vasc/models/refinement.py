@@ -115,4 +115,3 @@ class SubdivisionParameters(Parameters):
         """Give the refinement for a growing blade."""
         longest = self.longest or min(birth_distance, 2.0 * length)
         return Subdivision(growth, longest)
-

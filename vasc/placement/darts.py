@@ -1,6 +1,6 @@
 """Dart throwing over the current blade in every step (Runions 2008, sections 4.2.3-4.2.4)."""
 
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -11,6 +11,9 @@ from vasc.placement.base import Moment, Placement
 from vasc.placement.largest_blade import LargestBladePlacement
 from vasc.sources import Cause
 from vasc.vasculature import Vasculature
+
+if TYPE_CHECKING:
+    from vasc.kernels.darts import DartCells
 
 EPOCH_RATIO = 1.19
 """The cells are made anew when the blade has grown by this factor."""
@@ -152,7 +155,7 @@ def epoch_of(growth: Growth, step: int) -> tuple[int, int]:
     return start, np.iinfo(np.int32).max
 
 
-def blade_cells(growth: Growth, start: int, last: int, side: float):  # noqa: ANN201
+def blade_cells(growth: Growth, start: int, last: int, side: float) -> "DartCells":
     """Lay cells over everything that is blade in the steps ``start`` to ``last``.
 
     A blade that is not star-shaped about its attachment can leave, when only its
