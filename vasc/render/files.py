@@ -217,7 +217,8 @@ def _side_by_side(views: Sequence[View], style: LeafStyle) -> tuple[Figure, list
 
     width = sum(view.inches[0] for view in views)
     height = max(view.inches[1] for view in views)
-    figure = Figure(figsize=(width, height), facecolor=style.background)
+    # a hair more, since matplotlib before 3.11 cuts 399.9999 pixels to 399
+    figure = Figure(figsize=(width + 1e-6, height + 1e-6), facecolor=style.background)
     FigureCanvasAgg(figure)
     axes, left = [], 0.0
     for view in views:
