@@ -14,6 +14,7 @@ from vasc.config import Experiment, experiment_from_record
 from vasc.errors import TimelineError
 from vasc.events import EventKind, StopReason
 from vasc.models.base import Model
+from vasc.network import Origin
 from vasc.simulation import Observer, simulate
 from vasc.state import TABLE_COLUMNS, State
 from vasc.streams import Streams
@@ -47,7 +48,7 @@ class Summary:
     stalls_resolved : int
         Times the stall rule chose a direction.
     nodes_outside : int
-        Nodes that lie outside the blade.
+        Nodes that lie outside the blade, seeds left out.
     wall_seconds : float
         Time this session took.
     stop_reason : str or None
@@ -286,6 +287,8 @@ def _summary(
     """Sum up a state."""
     kinds = np.bincount(state.rows("events", "kind"), minlength=len(EventKind)).tolist()
     network = state.network
+    # a seed lies on the margin, where the petiole is attached
+    is_outside = ~state.blade.contains(network.positions)
     return Summary(
         output=path,
         steps=state.step,
@@ -296,7 +299,7 @@ def _summary(
         joins=kinds[EventKind.VEIN_JOINED],
         loops=kinds[EventKind.LOOP_CLOSED],
         stalls_resolved=kinds[EventKind.STALL_RESOLVED],
-        nodes_outside=int((~state.blade.contains(network.positions)).sum()),
+        nodes_outside=int((is_outside & (network.origins != Origin.SEED)).sum()),
         wall_seconds=time.perf_counter() - started,
         stop_reason=reason,
         is_interrupted=is_interrupted,
@@ -358,5 +361,5 @@ def _difference(
 
 def _bits(rows: NDArray, dtype: np.dtype) -> NDArray[np.uint8]:
     """Give the bytes of each row, so that equal means equal in every bit."""
-    flat = np.ascontiguousarray(rows, dtype=dtype).reshape(len(rows), -1)
-    return flat.view(np.uint8).reshape(len(rows), -1)
+    width = dtype.itemsize * int(np.prod(rows.shape[1:]))
+    return np.ascontiguousarray(rows, dtype=dtype).view(np.uint8).reshape(len(rows), width)

@@ -1,13 +1,14 @@
 """What a user sees when something goes wrong: a line, and an exit code."""
 
 import difflib
+import functools
 import os
 import sys
 import traceback
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from typing import TextIO
+from typing import Any, TextIO
 
 import typer
 
@@ -18,7 +19,40 @@ FAILED_RUN = 3
 INTERRUPTED = 130
 
 
-def report(error: BaseException, *, with_traceback: bool) -> int:
+class InterruptedRunError(Exception):
+    """Ctrl-C, under a name that the library that reads the command line leaves alone."""
+
+
+def interruptible(verb: Callable[..., None]) -> Callable[..., None]:
+    """Let an interrupt of a verb reach the end of the program as one.
+
+    Parameters
+    ----------
+    verb : callable
+        The function of a verb.
+
+    Returns
+    -------
+    callable
+        The same, with the same signature.
+
+    Raises
+    ------
+    InterruptedRunError
+        If Ctrl-C is pressed.
+    """
+
+    @functools.wraps(verb)
+    def called(*arguments: Any, **options: Any) -> None:
+        try:
+            verb(*arguments, **options)
+        except KeyboardInterrupt as error:
+            raise InterruptedRunError from error
+
+    return called
+
+
+def end_of(error: BaseException, *, with_traceback: bool) -> int:
     """Write what went wrong to the terminal.
 
     Parameters
@@ -33,6 +67,12 @@ def report(error: BaseException, *, with_traceback: bool) -> int:
     int
         The exit code that belongs to it.
     """
+    if isinstance(error, BrokenPipeError):
+        # whoever reads the output has seen enough, as `head` does
+        silence_output()
+        return 0
+    if isinstance(error, SystemExit):
+        return error.code if isinstance(error.code, int) else FAILED_RUN
     if with_traceback:
         traceback.print_exception(error)
     lines, code = _described(error)
@@ -85,7 +125,7 @@ def _described(error: BaseException) -> tuple[list[str], int]:
         return error.problems, error.exit_code
     if isinstance(error, VascError):
         return [_one_line(str(error))], error.exit_code
-    if isinstance(error, KeyboardInterrupt | typer.Abort):
+    if isinstance(error, InterruptedRunError | KeyboardInterrupt | typer.Abort):
         return ["interrupted"], INTERRUPTED
     # usage errors of the library that reads the command line know how to say it
     say = getattr(error, "format_message", None)

@@ -19,7 +19,7 @@ from vasc.cli import (
     stats,
     verify,
 )
-from vasc.cli.failures import report, silence_output, without_lines_of_code
+from vasc.cli.failures import end_of, interruptible, without_lines_of_code
 
 # the order of a first day with vasc
 VERBS = (configs, run, resume, show, events, lineage, stats, render, animate, verify, schema)
@@ -42,7 +42,7 @@ app = typer.Typer(
 )
 for _module in VERBS:
     _name = _module.__name__.rpartition(".")[2]
-    app.command(_name, epilog=examples(_module.EXAMPLES))(getattr(_module, _name))
+    app.command(_name, epilog=examples(_module.EXAMPLES))(interruptible(getattr(_module, _name)))
 
 
 @app.callback(invoke_without_command=True, epilog=examples(["vasc run poplar-leaf"]))
@@ -92,11 +92,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             )
         sys.stdout.flush()
     except SystemExit as error:
-        return error.code if isinstance(error.code, int) else 1
-    except BrokenPipeError:
-        # whoever reads the output has seen enough, as `head` does
-        silence_output()
-        return 0
+        # the library that reads the command line makes this of some errors
+        return end_of(error.__context__ or error, with_traceback=DEBUG in own)
     except BaseException as error:
-        return report(error, with_traceback=DEBUG in own)
+        return end_of(error, with_traceback=DEBUG in own)
     return code if isinstance(code, int) else 0

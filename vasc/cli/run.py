@@ -54,6 +54,7 @@ def run(
     from vasc.cli.summary import end_if_interrupted, print_summary
     from vasc.config import load, parse_override
     from vasc.config.regime import regime
+    from vasc.timeline.storage import check_output
 
     if figure is not None and no_figure:
         raise typer.BadParameter("--figure and --no-figure exclude each other")
@@ -62,6 +63,7 @@ def run(
         overrides.append((("seed",), seed))
     experiment = load(config, overrides)
     output = Path(f"{experiment.name}.h5") if output is None else output
+    check_output(output, force=force)
     if not no_figure:
         figure = output.with_suffix(".png") if figure is None else figure
     check_outputs(config, output, figure, force=force)
@@ -91,17 +93,16 @@ def run(
 
 
 def check_outputs(config: str, output: Path, figure: Path | None, *, force: bool) -> None:
-    """Refuse, before anything is made, files that cannot or must not be written.
+    """Refuse files that are one, and a picture that cannot be written.
 
     Raises
     ------
     OutputError
-        If a file exists and ``force`` is not set, its folder does not exist, or
-        two of the files are one.
+        If two of the files are one, or the picture exists and ``force`` is not
+        set, its folder does not exist, or it is of no known kind.
     """
     from vasc.errors import OutputError
     from vasc.render import PICTURE_SUFFIXES
-    from vasc.timeline.storage import check_output
 
     named = [("config", Path(config)), ("timeline", output)]
     if figure is not None:
@@ -110,7 +111,6 @@ def check_outputs(config: str, output: Path, figure: Path | None, *, force: bool
         for other_kind, other in named[:index]:
             if path.absolute() == other.absolute() or (path.exists() and _is_same(path, other)):
                 raise OutputError(f"{path}: cannot be {other_kind} and {kind} at once")
-    check_output(output, force=force)
     if figure is not None:
         if figure.suffix.lower() not in PICTURE_SUFFIXES:
             known = ", ".join(PICTURE_SUFFIXES)

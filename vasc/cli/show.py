@@ -98,8 +98,12 @@ def _print(timeline: "Timeline", path: Path) -> None:
 def _check(path: Path, *, as_json: bool) -> None:
     """Validate the file; findings end the program with 1."""
     from vasc.cli.printing import print_json
+    from vasc.errors import TimelineError
     from vasc.timeline import validate
 
+    if not path.is_file():
+        # no finding about a timeline, but bad input
+        raise TimelineError(f"{path}: no such file")
     findings = validate(path)
     if as_json:
         print_json({"findings": findings, "pass": not findings})

@@ -54,6 +54,13 @@ def kinds(node: Schema) -> list[str]:
     return list(node.get("discriminator", {}).get("mapping", ()))
 
 
+def choices(node: Schema, root: Schema) -> list[str]:
+    """Give the words a key takes, empty if it takes others, too."""
+    node = resolved(node, root)
+    found = [word for part in node.get("anyOf", ()) for word in choices(part, root)]
+    return found or list(node.get("enum", ()))
+
+
 def listed(values: list[str]) -> str:
     """Write the kinds or words that are allowed."""
     return ", ".join(written(value) for value in values)

@@ -122,6 +122,8 @@ def _renamed(tables: Any, names: dict[str, str]) -> Any:
 
 def _problem(folder: Path, name: str) -> str:
     """Say why a file cannot be used; empty if it can."""
+    if not name or "\0" in name:
+        return "is not the name of a file"
     path = folder / name
     try:
         if not path.exists():
@@ -134,6 +136,4 @@ def _problem(folder: Path, name: str) -> str:
             file.read(1)
     except OSError as error:
         return f"cannot be read: {error.strerror or error}"
-    except ValueError:
-        return "is not the name of a file"
     return ""

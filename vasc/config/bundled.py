@@ -68,6 +68,8 @@ def find_config(source: str | Path) -> Path:
     ConfigError
         If there is neither.
     """
+    if not str(source).isprintable():
+        raise ConfigError(f"{str(source)[:80]!r}: is not the name of a file")
     path = Path(source)
     known = bundled_paths()
     try:

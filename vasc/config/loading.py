@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from vasc.config.attachments import missing_files, packed, unpacked
 from vasc.config.bundled import find_config
 from vasc.config.overrides import Override, overridden
-from vasc.config.reading import parse, read_text
+from vasc.config.reading import parse, read_text, refuse_deep
 from vasc.config.values import assignment
 from vasc.errors import ConfigError, TimelineError
 
@@ -125,6 +125,7 @@ def load_text(
     tables = parse(text, label)
     if changes:
         tables = overridden(tables, changes)
+        refuse_deep(tables, label)
     parameters = _checked(tables, folder, label)
     toml = _rewritten(tables, changes) if changes else text
     return Experiment(name, parameters, toml, folder, packed(tables, folder))

@@ -4,7 +4,7 @@ import difflib
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from vasc.config.allowed import Schema, allowed, kinds, listed, resolved
+from vasc.config.allowed import Schema, allowed, choices, kinds, listed, resolved
 from vasc.config.places import ABSENT, Place, find_place
 from vasc.config.values import Path, assignment, dotted, written
 
@@ -103,7 +103,7 @@ def _wrong_value(place: Place, root: Schema) -> str:
     """Describe a value that is of the wrong type or out of range."""
     node = place.node or {}
     line = f"{assignment(place.path, place.value)}: must be {allowed(node, root)}"
-    return line + (nearest(place.value, node["enum"]) if "enum" in node else "")
+    return line + nearest(place.value, choices(node, root))
 
 
 def _missing(place: Place, root: Schema) -> str:

@@ -10,6 +10,9 @@ from vasc.errors import ConfigError
 LARGEST_CONFIG = 1_000_000
 """Bytes a config may have."""
 
+DEEPEST = 32
+"""Levels of tables and lists a config may have."""
+
 _HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 _PLACE = re.compile(r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)$")
 
@@ -69,7 +72,7 @@ def parse(text: str, name: str) -> dict[str, Any]:
         If the text is not TOML; the message names line and column.
     """
     try:
-        return tomllib.loads(text)
+        tables = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise ConfigError(f"{name}: {_located(str(error), text)}") from error
     except RecursionError as error:
@@ -77,6 +80,27 @@ def parse(text: str, name: str) -> dict[str, Any]:
     except ValueError as error:
         # Python refuses to read integers of thousands of digits
         raise ConfigError(f"{name}: a number is too long to be read: {error}") from error
+    refuse_deep(tables, name)
+    return tables
+
+
+def refuse_deep(tables: Any, name: str) -> None:
+    """Refuse tables and lists that are nested so deeply that no code can walk them.
+
+    Raises
+    ------
+    ConfigError
+        If there are more than ``DEEPEST`` levels.
+    """
+    level = [tables]
+    for _ in range(DEEPEST):
+        inside: list[Any] = []
+        for value in level:
+            if isinstance(value, dict | list):
+                inside += value.values() if isinstance(value, dict) else value
+        level = inside
+    if any(isinstance(value, dict | list) for value in level):
+        raise ConfigError(f"{name}: lists or tables are nested too deeply")
 
 
 def _decoded(raw: bytes, path: Path) -> str:

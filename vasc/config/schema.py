@@ -74,8 +74,6 @@ def parameters_from(tables: dict[str, Any], known: Models | None = None) -> Para
             raise ConfigError(_refused(tables, known, found))
         text = json.dumps(tables, default=str)
         parameters = known[kind].model_validate_json(text, strict=True)
-    except RecursionError as error:
-        raise ConfigError("lists or tables are nested too deeply") from error
     except ValidationError as error:
         found = {**problems(error, tables, json_schema_of(known[kind])), **found}
     if found:

@@ -1,0 +1,122 @@
+"""A wrong config ends `vasc run` with lines and exit code 2, and leaves nothing behind."""
+
+import pytest
+from config.wrong_configs import WRONG, config
+
+from vasc.cli import main
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path, monkeypatch):
+    """Work in an empty folder."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def refused(arguments, capsys):
+    """Give the lines of a run that is refused before anything is made."""
+    assert main(arguments) == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert "Traceback" not in said.err
+    lines = said.err.splitlines()
+    assert lines
+    return lines
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_a_wrong_config_is_refused(case, here, capsys):
+    text, *parts = WRONG[case]
+    (here / "leaf.toml").write_text(text)
+    lines = refused(["run", "leaf.toml"], capsys)
+    assert len([line for line in lines if all(part in line for part in parts)]) == 1, lines
+    assert [line for line in lines if not line.startswith("leaf.toml: ")] == []
+    assert [path.name for path in here.iterdir()] == ["leaf.toml"]
+
+
+@pytest.mark.parametrize(
+    ("spoilt", "part"),
+    [
+        ({"placement": 'kind = "given"\npoints = [[500.0, 5.0]]'}, "(500, 5) lies outside"),
+        (
+            {"domain": "points = [[-1, 0], [1, 2], [1, 0], [-1, 2]]\nlength = 20.0"},
+            "cross",
+        ),
+        (
+            {"domain": 'shape = "ovate"\nlength = 20.0\nseeds = [[5.0, 5.0]]'},
+            "seed",
+        ),
+    ],
+    ids=["source outside", "outline crosses itself", "seed outside"],
+)
+def test_what_only_geometry_can_tell_is_refused_too(spoilt, part, here, capsys):
+    (here / "leaf.toml").write_text(config(**spoilt))
+    assert main(["run", "leaf.toml", "--quiet"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert part in line
+    assert [path.name for path in here.iterdir()] == ["leaf.toml"]
+
+
+@pytest.mark.parametrize(
+    ("content", "part"),
+    [
+        ("x,y\n0,5\n1,oops\n", "line 3"),
+        ("a,b\n0,5\n", "columns x, y"),
+        ("", "holds no sources"),
+    ],
+)
+def test_a_file_of_sources_is_read_before_anything_is_made(content, part, here, capsys):
+    (here / "leaf.toml").write_text(config(placement='kind = "given"\nfile = "s.csv"'))
+    (here / "s.csv").write_text(content)
+    assert main(["run", "leaf.toml", "--quiet"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert part in line
+    assert {path.name for path in here.iterdir()} == {"leaf.toml", "s.csv"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "parts"),
+    [
+        (["none.toml"], ["none.toml", "no such file"]),
+        (["poplar-lef"], ["nearest: poplar-leaf"]),
+        (["."], ["is a folder"]),
+        (["poplar-leaf", "--set", "seed"], ["--set seed", "KEY=VALUE"]),
+        (["poplar-leaf", "--set", "seed.x=1"], ["seed is not a table"]),
+        (["poplar-leaf", "--set", "growth.knd=none"], ["growth.knd", 'nearest: "kind"']),
+        (["poplar-leaf", "--seed", "-1"], ["seed = -1", "at least 0"]),
+        (["poplar-leaf", "--seed", "x"], ["--seed"]),
+        (["poplar-leaf", "--steps", "0"], ["--steps"]),
+        (["poplar-leaf", "-o", "nowhere/p.h5"], ["nowhere", "does not exist"]),
+        (["poplar-leaf", "-o", "."], ["is a folder"]),
+        (["poplar-leaf", "--figure", "nowhere/p.png"], ["nowhere", "does not exist"]),
+        (["poplar-leaf", "--figure", "p.bmp"], ["p.bmp", ".png, .svg, .pdf"]),
+        (["poplar-leaf", "--figure", "p"], [".png, .svg, .pdf"]),
+        (["poplar-leaf", "-o", "p.png"], ["p.png", "timeline and picture at once"]),
+        (["poplar-leaf", "--figure", "p.png", "--no-figure"], ["exclude each other"]),
+    ],
+)
+def test_wrong_arguments_are_refused(arguments, parts, here, capsys):
+    (line,) = refused(["run", *arguments], capsys)
+    assert [part for part in parts if part not in line] == []
+    assert list(here.iterdir()) == []
+
+
+def test_a_file_that_exists_is_refused_before_the_run(here, capsys):
+    (here / "poplar-leaf.h5").write_bytes(b"mine")
+    (line,) = refused(["run", "poplar-leaf"], capsys)
+    assert "poplar-leaf.h5: exists already; use --force" in line
+    (here / "poplar-leaf.h5").rename(here / "poplar-leaf.png")
+    (line,) = refused(["run", "poplar-leaf"], capsys)
+    assert "poplar-leaf.png: exists already; use --force" in line
+    assert [(path.name, path.read_bytes()) for path in here.iterdir()] == [
+        ("poplar-leaf.png", b"mine")
+    ]
+
+
+def test_a_config_is_never_overwritten(here, capsys):
+    (here / "leaf.toml").write_text(config())
+    (here / "link.h5").symlink_to("leaf.toml")
+    for output in ("leaf.toml", "link.h5"):
+        (line,) = refused(["run", "leaf.toml", "-o", output, "--force", "--no-figure"], capsys)
+        assert "config and timeline at once" in line
+    assert (here / "leaf.toml").read_text() == config()
