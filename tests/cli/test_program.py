@@ -84,6 +84,14 @@ def test_a_wrong_command_line_is_told_in_one_line(arguments, part, capsys):
     assert said.out == ""
 
 
+@pytest.mark.parametrize("verb", ["render", "animate"])
+def test_the_help_names_every_colour(verb, capsys):
+    from vasc.render import COLOR_CHOICES
+
+    main([verb, "--help"])
+    assert f"One of {', '.join(COLOR_CHOICES)}." in " ".join(capsys.readouterr().out.split())
+
+
 def test_a_misspelt_verb_is_told_with_the_nearest(capsys):
     main(["rum"])
     assert "'run'" in capsys.readouterr().err

@@ -24,7 +24,9 @@ MoreSteps = Annotated[
     typer.Option("--steps", min=1, help="Make that many steps at most; `vasc resume` goes on."),
 ]
 
-Color = Annotated[str, typer.Option("--color", help="One of width, order, age, source.")]
+Color = Annotated[
+    str, typer.Option("--color", help="One of width, order, age, source, kind, state.")
+]
 
 WithSources = Annotated[bool, typer.Option("--sources", help="Draw the live sources, too.")]
 

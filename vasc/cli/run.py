@@ -59,9 +59,7 @@ def run(
     if figure is not None and no_figure:
         raise typer.BadParameter("--figure and --no-figure exclude each other")
     overrides = [parse_override(change) for change in changes or ()]
-    if seed is not None:
-        overrides.append((("seed",), seed))
-    experiment = load(config, overrides)
+    experiment = load(config, [*overrides, *([] if seed is None else [(("seed",), seed)])])
     output = Path(f"{experiment.name}.h5") if output is None else output
     check_output(output, force=force)
     if not no_figure:
