@@ -1,170 +1,222 @@
-"""Named leaf shapes: unit outlines with the attachment at the origin and the tip at (0, 1).
+"""Named leaf shapes in the terms of leaf morphology (Runions 2008, Figure 4.1).
 
-Each is a few cubic or trigonometric curves with a parameter or two, in the terms of
-leaf morphology (Runions 2008, Figure 4.1); half outlines run from base to tip and
-are mirrored.
+Each is a class of a few parameters that draws a unit outline: attachment at the
+origin, height 1, as wide as such leaves usually are.
 """
 
-from collections.abc import Callable
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
+from pydantic import Field
 
-from vasc.arrays import Floats, Points
-
-HALF_POINTS = 160
-"""Points of half an outline."""
-
-
-def from_half(x: Floats, y: Floats) -> Points:
-    """Mirror half an outline, from base to tip on the right, and bring the tip to (0, 1)."""
-    right = np.stack([x, y], axis=1)
-    left = right[-2:0:-1] * np.array([-1.0, 1.0])
-    outline = np.concatenate([right, left])
-    return np.ascontiguousarray(outline / right[-1, 1])
+from vasc.arrays import Points
+from vasc.domain.curves import ROUND, base_curve, cubic, line, tip_curve
+from vasc.domain.palmate import Fan, Lobed, Reniform
+from vasc.domain.shape_base import ShapeParameters, base_form, tip_form
+from vasc.parameters import quantity
 
 
-def elliptic(*, width: float, n_points: int = HALF_POINTS) -> Points:
-    """Give an ellipse, widest in the middle."""
-    t = np.linspace(0.0, np.pi, n_points)
-    return from_half(0.5 * width * np.sin(t), 0.5 - 0.5 * np.cos(t))
+class Elliptic(ShapeParameters):
+    """An ellipse, widest in the middle."""
+
+    half_width: ClassVar[float] = 0.3
+    shape: Literal["elliptic"] = "elliptic"
+
+    def half(self) -> list[Points]:
+        """Give half an ellipse."""
+        angles = np.linspace(0.0, np.pi, 513)
+        arc = np.stack([self.half_width * np.sin(angles), 0.5 - 0.5 * np.cos(angles)], axis=1)
+        return [arc]
 
 
-def ovate(*, width: float, n_points: int = HALF_POINTS, skew: float = 0.35) -> Points:
-    """Give an egg shape, widest below the middle."""
-    t = np.linspace(0.0, np.pi, n_points)
-    y = 0.5 - 0.5 * np.cos(t)
-    x = 0.5 * width * np.sin(t) * (1.0 + skew * np.cos(t)) / (1.0 + 0.12 * skew)
-    return from_half(x, y)
+class Orbicular(Elliptic):
+    """A circle with the attachment on its margin."""
+
+    half_width: ClassVar[float] = 0.5
+    shape: Literal["orbicular"] = "orbicular"  # type: ignore[assignment]
 
 
-def obovate(*, width: float, n_points: int = HALF_POINTS) -> Points:
-    """Give an egg shape, widest above the middle."""
-    return ovate(width=width, n_points=n_points, skew=-0.35)
+class Ovate(ShapeParameters):
+    """An egg, widest below the middle."""
+
+    half_width: ClassVar[float] = 0.32
+    shape: Literal["ovate"] = "ovate"
+    widest: float = quantity(
+        "Height of the widest place.", unit="blade length", default=0.36, ge=0.05, le=0.95
+    )
+    base: float = base_form(0.8)
+    tip: float = tip_form(0.1)
+
+    def half(self) -> list[Points]:
+        """Give the margin below and above the widest place."""
+        return [
+            base_curve(self.half_width, self.widest, self.base),
+            tip_curve(self.half_width, self.widest, self.tip),
+        ]
 
 
-def orbicular(*, width: float = 1.0, n_points: int = HALF_POINTS) -> Points:
-    """Give a circle (for width 1)."""
-    return elliptic(width=width, n_points=n_points)
+class Obovate(Ovate):
+    """An egg, widest above the middle."""
+
+    half_width: ClassVar[float] = 0.3
+    shape: Literal["obovate"] = "obovate"  # type: ignore[assignment]
+    widest: float = quantity(
+        "Height of the widest place.", unit="blade length", default=0.66, ge=0.05, le=0.95
+    )
+    base: float = base_form(0.0)
+    tip: float = tip_form(0.8)
 
 
-def linear(*, width: float, n_points: int = HALF_POINTS) -> Points:
-    """Give a strap with nearly parallel margins, a broad base and a pointed tip."""
-    y = np.linspace(0.0, 1.0, n_points)
-    fall = np.clip((y - 0.6) / 0.4, 0.0, 1.0)
-    x = 0.5 * width * (1.0 - fall * fall)
-    return from_half(np.concatenate([[0.0], x]), np.concatenate([[0.0], y]))
+class Cordate(ShapeParameters):
+    """A heart: basal lobes beside the attachment."""
+
+    half_width: ClassVar[float] = 0.42
+    shape: Literal["cordate"] = "cordate"
+    widest: float = quantity(
+        "Height of the widest place.", unit="blade length", default=0.24, ge=0.02, le=0.9
+    )
+    sinus: float = quantity(
+        "Depth of the basal lobes below the attachment.",
+        unit="blade length",
+        default=0.13,
+        ge=0.0,
+        le=0.5,
+    )
+    tip: float = tip_form(-0.25)
+
+    def half(self) -> list[Points]:
+        """Give the inner and outer margin of the lobe, and that of the blade above."""
+        w, h, d = self.half_width, self.widest, self.sinus
+        lowest = (0.42 * w, -d)
+        return [
+            cubic((0.0, 0.0), (0.06 * w, -0.6 * d), (0.22 * w, -d), lowest),
+            cubic(lowest, (0.74 * w, -d), (w, h - ROUND * (h + d)), (w, h)),
+            tip_curve(w, h, self.tip),
+        ]
 
 
-def cordate(*, width: float, sinus: float = 0.14, n_points: int = HALF_POINTS) -> Points:
-    """Give a heart: rounded basal lobes beside the attachment, a pointed tip."""
-    w = 0.5 * width
-    lobe = _cubic((0.0, 0.0), (0.10 * w, -sinus), (0.55 * w, -1.25 * sinus), (0.86 * w, 0.10))
-    side = _cubic((0.86 * w, 0.10), (1.22 * w, 0.36), (0.42 * w, 0.62), (0.0, 1.0))
-    return _resampled(np.concatenate([lobe, side[1:]]), n_points)
+class Deltoid(Cordate):
+    """A triangle with rounded corners and a drawn-out tip, as in poplars."""
+
+    half_width: ClassVar[float] = 0.44
+    shape: Literal["deltoid"] = "deltoid"  # type: ignore[assignment]
+    widest: float = quantity(
+        "Height of the widest place.", unit="blade length", default=0.18, ge=0.02, le=0.9
+    )
+    sinus: float = quantity(
+        "Depth of the basal lobes below the attachment.",
+        unit="blade length",
+        default=0.03,
+        ge=0.0,
+        le=0.5,
+    )
+    tip: float = tip_form(-0.6)
 
 
-def deltoid(*, width: float, n_points: int = HALF_POINTS) -> Points:
-    """Give a triangle with rounded corners and a drawn-out tip, as of poplars."""
-    w = 0.5 * width
-    base = _cubic((0.0, 0.0), (0.35 * w, -0.05), (0.75 * w, -0.02), (0.95 * w, 0.14))
-    side = _cubic((0.95 * w, 0.14), (1.12 * w, 0.34), (0.22 * w, 0.62), (0.0, 1.0))
-    return _resampled(np.concatenate([base, side[1:]]), n_points)
+class Linear(ShapeParameters):
+    """A strap: a broad base, parallel margins and a pointed tip, as in grasses."""
+
+    half_width: ClassVar[float] = 0.06
+    shape: Literal["linear"] = "linear"
+    base_width: float = quantity(
+        "Width of the straight base over that of the blade.", default=0.8, gt=0.0, le=1.0
+    )
+    taper: float = quantity(
+        "Length of the tapering tip; 0 ends the blade with a straight cut.",
+        unit="blade length",
+        default=0.45,
+        ge=0.0,
+        le=0.7,
+    )
+
+    def half(self) -> list[Points]:
+        """Give base, margin and tip."""
+        w, top = self.half_width, 1.0 - self.taper
+        corner = (self.base_width * w, 0.0)
+        shoulder = (w, 0.25)
+        pieces = [line((0.0, 0.0), corner)]
+        if self.base_width < 1.0:
+            pieces.append(cubic(corner, (corner[0], 0.1), (w, 0.15), shoulder))
+            pieces.append(line(shoulder, (w, top)))
+        else:
+            pieces.append(line(corner, (w, top)))
+        if self.taper > 0.0:
+            pieces.append(cubic((w, top), (w, 1 - 0.6 * self.taper), (0.45 * w, 0.97), (0.0, 1.0)))
+        else:
+            pieces.append(line((w, 1.0), (0.0, 1.0)))
+        return pieces
 
 
-def lobed(
-    *, width: float = 1.1, lobes: int = 5, depth: float = 0.5, n_points: int = HALF_POINTS
-) -> Points:
-    """Give a digitate blade: pointed lobes that radiate from the attachment."""
-    spread = np.pi * 0.74 if lobes > 3 else np.pi * 0.45
-    angle = np.linspace(np.pi / 2 - spread, np.pi / 2, 2 * n_points)
-    step = 2.0 * spread / (lobes - 1)
-    phase = (np.pi / 2 - angle) / step
-    to_axis = np.abs(phase - np.round(phase)) * 2.0
-    fall = 1.0 - 0.30 * ((np.pi / 2 - angle) / spread) ** 2
-    radius = fall * (1.0 - depth * to_axis * (1.6 - 0.6 * to_axis))
-    base = np.array([[0.0, 0.0]])
-    tips = np.stack([radius * np.cos(angle) * width, radius * np.sin(angle)], axis=1)
-    half = np.concatenate([base, tips])
-    return from_half(half[:, 0], half[:, 1])
+class Bilobed(ShapeParameters):
+    """Two round lobes parted by a notch at the tip, as in the orchid tree (Bauhinia).
+
+    The blade length is the height of the lobes.
+    """
+
+    half_width: ClassVar[float] = 0.52
+    shape: Literal["bilobed"] = "bilobed"
+    notch: float = quantity(
+        "Depth of the notch between the lobes.", unit="blade length", default=0.3, ge=0.0, le=0.8
+    )
+    sinus: float = quantity(
+        "Depth of the basal lobes below the attachment.",
+        unit="blade length",
+        default=0.1,
+        ge=0.0,
+        le=0.5,
+    )
+
+    def half(self) -> list[Points]:
+        """Give basal lobe, flank, and the outer and inner margin of the upper lobe."""
+        w, d, n = self.half_width, self.sinus, self.notch
+        lowest, widest, highest = (0.45 * w, -d), (w, 0.42), (0.55 * w, 1.0)
+        return [
+            cubic((0.0, 0.0), (0.08 * w, -0.6 * d), (0.24 * w, -d), lowest),
+            cubic(lowest, (0.8 * w, -d), (w, 0.42 - ROUND * (0.42 + d)), widest),
+            cubic(widest, (w, 0.8), (0.82 * w, 1.0), highest),
+            cubic(highest, (0.3 * w, 1.0), (0.1 * w, 1.0 - 0.35 * n), (0.0, 1.0 - n)),
+        ]
 
 
-def fan(*, width: float = 1.6, wave: float = 0.012, notch: float = 0.0,
-        n_points: int = HALF_POINTS) -> Points:
-    """Give a ginkgo fan: straight flanks and a rounded, wavy outer margin."""
-    spread = 0.5 * width * 0.95
-    angle = np.linspace(spread, 0.0, n_points)
-    rim = 1.0 - wave * (1.0 - np.cos(16.0 * angle)) - notch / (1.0 + (angle / 0.05) ** 2)
-    corner = np.clip((spread - angle) / (0.22 * spread), 0.0, 1.0)
-    rim = rim * (0.80 + 0.20 * np.sqrt(corner * (2.0 - corner)))
-    x = np.concatenate([[0.0], rim * np.sin(angle)])
-    y = np.concatenate([[0.0], rim * np.cos(angle)])
-    x[-1] = 0.0
-    return from_half(x, y)
-
-
-def reniform(*, width: float = 1.15, lobes: int = 9, depth: float = 0.06,
-             n_points: int = HALF_POINTS) -> Points:
-    """Give a round blade about the attachment with shallow lobes and a basal sinus."""
-    spread = np.pi * 0.93
-    angle = np.linspace(np.pi / 2 - spread, np.pi / 2, 2 * n_points)
-    phase = (np.pi / 2 - angle) / (2.0 * spread) * lobes
-    radius = 1.0 - depth * (1.0 - np.cos(2.0 * np.pi * phase))
-    fall = 1.0 - 0.28 * ((np.pi / 2 - angle) / spread) ** 2
-    tips = np.stack([fall * radius * np.cos(angle) * width, fall * radius * np.sin(angle)], axis=1)
-    half = np.concatenate([np.array([[0.0, 0.0]]), tips])
-    half[-1, 0] = 0.0
-    return from_half(half[:, 0], half[:, 1])
-
-
-def bilobed(*, width: float = 1.15, notch: float = 0.28, n_points: int = HALF_POINTS) -> Points:
-    """Give two round lobes parted by a notch at the tip, as of the orchid tree."""
-    w = 0.5 * width
-    low = _cubic((0.0, 0.0), (0.25 * w, -0.16), (1.05 * w, -0.10), (1.0 * w, 0.42))
-    high = _cubic((1.0 * w, 0.42), (0.97 * w, 0.78), (0.78 * w, 1.0), (0.52 * w, 1.0))
-    inner = _cubic((0.52 * w, 1.0), (0.28 * w, 1.0), (0.08 * w, 0.90), (0.0, 1.0 - notch))
-    half = np.concatenate([low, high[1:], inner[1:]])
-    return from_half_at_height(_resampled_half(half, n_points))
-
-
-def from_half_at_height(half: Points) -> Points:
-    """Mirror half an outline and bring its greatest height to 1."""
-    left = half[-2:0:-1] * np.array([-1.0, 1.0])
-    return np.ascontiguousarray(np.concatenate([half, left]) / half[:, 1].max())
-
-
-def _cubic(a: tuple, b: tuple, c: tuple, d: tuple, n_points: int = 120) -> Points:
-    """Give points of a cubic Bezier curve."""
-    t = np.linspace(0.0, 1.0, n_points)[:, None]
-    s = 1.0 - t
-    points = s * s * s * np.array(a) + 3.0 * s * s * t * np.array(b)
-    return points + 3.0 * s * t * t * np.array(c) + t * t * t * np.array(d)
-
-
-def _resampled_half(half: Points, n_points: int) -> Points:
-    """Spread points evenly along half an outline."""
-    pieces = np.sqrt((np.diff(half, axis=0) ** 2).sum(axis=1))
-    along = np.concatenate([[0.0], np.cumsum(pieces)])
-    at = np.linspace(0.0, along[-1], n_points)
-    return np.stack([np.interp(at, along, half[:, 0]), np.interp(at, along, half[:, 1])], axis=1)
-
-
-def _resampled(half: Points, n_points: int) -> Points:
-    """Spread points evenly along half an outline, and mirror it."""
-    even = _resampled_half(half, n_points)
-    return from_half(even[:, 0], even[:, 1])
-
-
-SHAPES: dict[str, Callable[..., Points]] = {
-    "elliptic": elliptic,
-    "ovate": ovate,
-    "obovate": obovate,
-    "orbicular": orbicular,
-    "linear": linear,
-    "cordate": cordate,
-    "deltoid": deltoid,
-    "lobed": lobed,
-    "fan": fan,
-    "reniform": reniform,
-    "bilobed": bilobed,
+SHAPES: dict[str, type[ShapeParameters]] = {
+    "elliptic": Elliptic,
+    "orbicular": Orbicular,
+    "ovate": Ovate,
+    "obovate": Obovate,
+    "cordate": Cordate,
+    "deltoid": Deltoid,
+    "linear": Linear,
+    "lobed": Lobed,
+    "reniform": Reniform,
+    "fan": Fan,
+    "bilobed": Bilobed,
 }
 """The shapes by name."""
+
+Shape = Annotated[
+    Elliptic
+    | Orbicular
+    | Ovate
+    | Obovate
+    | Cordate
+    | Deltoid
+    | Linear
+    | Lobed
+    | Reniform
+    | Fan
+    | Bilobed,
+    Field(discriminator="shape"),
+]
+ShapeName = Literal[
+    "elliptic",
+    "orbicular",
+    "ovate",
+    "obovate",
+    "cordate",
+    "deltoid",
+    "linear",
+    "lobed",
+    "reniform",
+    "fan",
+    "bilobed",
+]

@@ -342,3 +342,46 @@ def margin_distances(
                 nearest = min(nearest, ox * ox + oy * oy)
         distances[k] = np.sqrt(nearest)
     return distances
+
+
+@njit(cache=True)
+def free_lengths(
+    ring: NDArray[np.float64], directions: NDArray[np.float64], most: float
+) -> NDArray[np.float64]:
+    """Give how far one can go from each corner of a ring before meeting the ring again.
+
+    Parameters
+    ----------
+    ring : ndarray of shape (n, 2), float64
+        Corners.
+    directions : ndarray of shape (n, 2), float64
+        Unit vectors, one for each corner.
+    most : float
+        Longest way that matters.
+
+    Returns
+    -------
+    ndarray of shape (n,), float64
+        At most ``most``. The two edges that meet in a corner are not in its way.
+    """
+    n = len(ring)
+    lengths = np.empty(n)
+    for k in range(n):
+        x, y, dx, dy = ring[k, 0], ring[k, 1], directions[k, 0], directions[k, 1]
+        nearest = most
+        for j in range(n):
+            following = j + 1 if j + 1 < n else 0
+            if j == k or following == k:
+                continue
+            ax, ay = ring[j, 0] - x, ring[j, 1] - y
+            bx, by = ring[following, 0] - x, ring[following, 1] - y
+            # signed distances of the ends from the line of the way
+            a_side, b_side = dx * ay - dy * ax, dx * by - dy * bx
+            if (a_side > 0.0) == (b_side > 0.0):
+                continue
+            share = a_side / (a_side - b_side)
+            along = dx * (ax + share * (bx - ax)) + dy * (ay + share * (by - ay))
+            if 0.0 < along < nearest:
+                nearest = along
+        lengths[k] = nearest
+    return lengths
