@@ -63,6 +63,8 @@ def find_place(location: Sequence[str | int], tables: Any, root: Schema) -> Plac
     for part in location:
         node = place.node or {}
         branches = [b for b in node.get("anyOf", ()) if b.get("type") != "null"]
+        if len(branches) == 1:
+            node = resolved(branches[0], root)
         if part in node.get("discriminator", {}).get("mapping", ()):
             kind = {"$ref": node["discriminator"]["mapping"][part]}
             place = Place(place.path, place.value, resolved(kind, root), place.table)
@@ -72,8 +74,6 @@ def find_place(location: Sequence[str | int], tables: Any, root: Schema) -> Plac
                 return Place(place.path, place.value, node, place.table, is_off_branch=True)
             place = Place(place.path, place.value, branch, place.table)
         else:
-            if branches:
-                node = resolved(branches[0], root)
             place = _inside(place, node, part, root)
     return place
 

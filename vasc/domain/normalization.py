@@ -1,16 +1,24 @@
 """From the coordinates of a file to a unit outline: attachment at the origin, tip at height 1."""
 
 from collections.abc import Sequence
-from typing import Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
+from pydantic import BeforeValidator
 
 from vasc.arrays import Points
 from vasc.domain.checks import place
 from vasc.domain.rings import signed_area
 from vasc.errors import OutlineError
 
-Pair = tuple[float, float]
+
+
+def _as_tuple(value: Any) -> Any:
+    """Let a list stand for a tuple: a config has lists only."""
+    return tuple(value) if isinstance(value, list) else value
+
+
+Pair = Annotated[tuple[float, float], BeforeValidator(_as_tuple)]
 Attachment = Literal["origin", "lowest"] | Pair
 Tip = Literal["highest", "farthest"] | Pair
 

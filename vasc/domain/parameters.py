@@ -33,7 +33,6 @@ class BladeParameters(Parameters):
     points: list[Pair] | None = quantity(
         "Corners of the outline, in any unit, y upward.",
         default=None,
-        min_length=3,
         max_length=MAX_POINTS,
     )
     file: str | None = quantity(
