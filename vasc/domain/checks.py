@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vasc.arrays import Points, as_points
-from vasc.domain.rings import distance_to_ring, signed_area, surrounding, surrounds
+from vasc.domain.rings import distance_to_ring, surrounding, surrounds
 from vasc.errors import OutlineError, ShapeError
 
 MAX_POINTS = 200_000
@@ -64,8 +64,12 @@ def _check_ring(points: Points, name: str) -> None:
         raise OutlineError(
             f"{name}: row {row} is {place(points[row])}; numbers must be at most {LARGEST:g}"
         )
-    extent = np.ptp(points, axis=0)
-    if abs(signed_area(points)) <= 1e-12 * float((extent * extent).sum()):
+    offsets = points - points[0]
+    squared = (offsets * offsets).sum(axis=1)
+    far = offsets[np.argmax(squared)]
+    # not the signed area, which is 0 for a figure of eight, too
+    off_line = np.abs(offsets[:, 0] * far[1] - offsets[:, 1] * far[0]).max()
+    if off_line <= 1e-12 * squared.max():
         raise OutlineError(
             f"{name}: area 0; the {len(points)} points from {place(points[0])} must not lie"
             " on one line"

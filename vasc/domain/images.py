@@ -17,7 +17,7 @@ MAX_PIXELS = 64_000_000
 FORMATS = ("PNG", "TIFF", "JPEG")
 LEAST_SHARE = 0.01
 """Spots and holes smaller than this share of the largest part are dirt or light veins."""
-BLUR = 1.0
+BLUR = 0.7
 """Standard deviation, in pixels, of the blur that takes the stairs off a mask."""
 TOLERANCE = 0.25
 """Most that corners of the outline are moved when points between them are left out, in pixels."""

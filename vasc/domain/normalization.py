@@ -12,7 +12,6 @@ from vasc.domain.rings import signed_area
 from vasc.errors import OutlineError
 
 
-
 def _as_tuple(value: Any) -> Any:
     """Let a list stand for a tuple: a config has lists only."""
     return tuple(value) if isinstance(value, list) else value

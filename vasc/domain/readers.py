@@ -46,10 +46,6 @@ def read_outline(
     OutlineError
         If the file is missing, too large, not of its kind, or holds no outline
         that can be used.
-
-    Examples
-    --------
-    >>> rings = read_outline("blade.svg")  # doctest: +SKIP
     """
     path = Path(path)
     read = READERS.get(path.suffix.lower())
@@ -65,6 +61,8 @@ def read_outline(
         raise OutlineError("outline: nested too deeply or too large to be read") from error
     except ShapeError as error:
         raise OutlineError(str(error)) from error
+    except OverflowError as error:
+        raise OutlineError("outline: holds a number that is too large") from error
     checked = check_rings(rings)
     check_crossings(checked)
     if is_y_down:
@@ -123,7 +121,7 @@ def read_csv(content: bytes) -> Outline:
         try:
             x, y = float(row[0]), float(row[1])
         except (ValueError, IndexError) as error:
-            if n_points == 0 and number == 1:
+            if number == 1 and not any(_is_number(cell) for cell in row):
                 continue
             said = ", ".join(row)[:60]
             raise OutlineError(f"outline: line {number} is '{said}'; it must be x, y") from error
@@ -136,6 +134,15 @@ def read_csv(content: bytes) -> Outline:
         for points in rings.values()
     ]
     return [np.array(points, dtype=np.float64) for points in closed], False
+
+
+def _is_number(cell: str) -> bool:
+    """Tell whether a cell holds a number."""
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
 
 
 def _rows(text: str) -> Iterator[tuple[int, list[str]]]:

@@ -10,6 +10,8 @@ from vasc.errors import OutlineError
 from vasc.parameters import Parameters, quantity
 
 MOST_POINTS = 20_000
+LONGEST_EDGE = 0.02
+"""Longest edge of a margin with teeth, as a share of its side."""
 ROOM_SHARE = 0.3
 """A tooth takes at most this share of the way to the margin opposite, in sinuses."""
 
@@ -109,6 +111,7 @@ class TeethParameters(Parameters):
 
     def _teeth_of_side(self, side: Points, sign: float) -> tuple[Points, Floats, Points]:
         """Give points from attachment to tip, heights there and normals, right or left."""
+        side = _without_long_edges(side)
         lengths = arc_lengths(side)
         total = lengths[-1]
         turns = [
@@ -121,9 +124,13 @@ class TeethParameters(Parameters):
         is_new = np.diff(positions, prepend=-1.0) > 1e-9 * total
         is_new[-1] = True
         positions = positions[is_new]
-        points = at_lengths(side, positions)
         heights = self.wave(positions / total) * self._fade(positions)
-        return points, heights, _normals(points, sign)
+        # between corners normals turn evenly, so that neighbours do not run into each other
+        normals = np.stack(
+            [np.interp(positions, lengths, axis) for axis in _normals(side, sign).T], axis=1
+        )
+        size = np.sqrt((normals * normals).sum(axis=1))
+        return at_lengths(side, positions), heights, normals / np.maximum(size, 1e-12)[:, None]
 
     @property
     def _peak(self) -> float:
@@ -159,6 +166,17 @@ def _apex(ring: Points) -> int:
     if not is_on_axis.any():
         return 1 + int(np.argmax(y[1:]))
     return int(np.argmax(np.where(is_on_axis, y, -np.inf)))
+
+
+def _without_long_edges(line: Points) -> Points:
+    """Give a line with points on its long edges, where a normal has room to turn at corners."""
+    lengths = arc_lengths(line)
+    n_pieces = np.ceil(np.diff(lengths) / (LONGEST_EDGE * lengths[-1])).astype(np.int64)
+    positions = [
+        start + (stop - start) * np.arange(n) / n
+        for start, stop, n in zip(lengths, lengths[1:], n_pieces, strict=False)
+    ]
+    return at_lengths(line, np.concatenate([*positions, lengths[-1:]]))
 
 
 def _normals(points: Points, sign: float) -> Points:
