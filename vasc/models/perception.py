@@ -1,13 +1,13 @@
 """Perception: which vein nodes each source attracts."""
 
 from abc import ABC, abstractmethod
-from types import ModuleType
 from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vasc import kernels
+from vasc.arrays import Ids
 from vasc.parameters import Parameters, quantity
 from vasc.placement import Moment
 from vasc.vasculature import Vasculature
@@ -38,31 +38,22 @@ class Perception(ABC):
         self._n_nodes = 0
         self._n_sources = 0
 
-    @property
     @abstractmethod
-    def kernel(self) -> ModuleType:
-        """The kernel with ``perceive_new`` and ``update``."""
+    def update(self, veins: Vasculature, known: Ids, start: int, stop: int) -> None:
+        """Bring the sets of known sources up to date with the nodes ``start`` to ``stop``."""
+
+    @abstractmethod
+    def perceive_new(self, veins: Vasculature, born: Ids) -> None:
+        """Find the sets of new sources, among the nodes that are in the grid."""
 
     def look(self, veins: Vasculature, n_nodes: int) -> None:
         """Bring what all sources perceive up to date with the first ``n_nodes`` nodes."""
-        nodes, sources = veins.material("nodes"), veins.material("sources")
-        n_sources = veins.sources.n_rows
-        born = np.searchsorted(veins.live, self._n_sources)
-        self.kernel.update(
-            veins.node_grid,
-            nodes,
-            veins.nodes.arrays["parent"],
-            self._n_nodes,
-            n_nodes,
-            sources,
-            veins.live[:born],
-            veins.perceived,
-        )
-        if born < len(veins.live):
-            self.kernel.perceive_new(
-                veins.node_grid, nodes, sources, veins.live[born:], veins.perceived
-            )
-        self._n_nodes, self._n_sources = n_nodes, n_sources
+        n_known = int(np.searchsorted(veins.live, self._n_sources))
+        if n_known and n_nodes > self._n_nodes:
+            self.update(veins, veins.live[:n_known], self._n_nodes, n_nodes)
+        if n_known < len(veins.live):
+            self.perceive_new(veins, veins.live[n_known:])
+        self._n_nodes, self._n_sources = n_nodes, veins.sources.n_rows
 
     def perceive(self, veins: Vasculature, moment: Moment) -> Attraction:
         """Give the pulls of all sources on the nodes they attract."""
@@ -89,28 +80,92 @@ class Perception(ABC):
 class NearestPerception(Perception):
     """A source attracts the nearest node (open venation, section 4.2)."""
 
-    @property
-    def kernel(self) -> ModuleType:
-        """The kernel of nearest nodes."""
-        return kernels.nearest
+    def update(self, veins: Vasculature, known: Ids, start: int, stop: int) -> None:
+        """Let nearer nodes take over."""
+        kernels.nearest.update(
+            veins.node_grid,
+            veins.material("nodes"),
+            veins.nodes.arrays["parent"],
+            start,
+            stop,
+            veins.material("sources"),
+            known,
+            veins.perceived,
+        )
+
+    def perceive_new(self, veins: Vasculature, born: Ids) -> None:
+        """Find the nearest nodes."""
+        kernels.nearest.perceive_new(
+            veins.node_grid,
+            veins.material("nodes"),
+            veins.material("sources"),
+            born,
+            veins.perceived,
+        )
 
 
 class RelativePerception(Perception):
     """A source attracts its relative neighbours (closed venation, equations 4.1 and 4.2)."""
 
-    @property
-    def kernel(self) -> ModuleType:
-        """The kernel of exact relative neighbourhoods."""
-        return kernels.relative_neighbors
+    def update(self, veins: Vasculature, known: Ids, start: int, stop: int) -> None:
+        """Let new nodes exclude members and become members."""
+        kernels.relative_neighbors.update(
+            veins.node_grid,
+            veins.material("nodes"),
+            veins.nodes.arrays["parent"],
+            start,
+            stop,
+            veins.material("sources"),
+            known,
+            veins.perceived,
+        )
+
+    def perceive_new(self, veins: Vasculature, born: Ids) -> None:
+        """Find the relative neighbours."""
+        kernels.relative_neighbors.perceive_new(
+            veins.node_grid,
+            veins.material("nodes"),
+            veins.material("sources"),
+            born,
+            veins.perceived,
+        )
 
 
 class UrquhartPerception(Perception):
     """A source attracts its Urquhart neighbours, an approximation (section 4.4.2, Figure 4.13)."""
 
-    @property
-    def kernel(self) -> ModuleType:
-        """The kernel of Urquhart neighbourhoods."""
-        return kernels.urquhart
+    def __init__(self, kill_distance: float, influence_radius: float | None) -> None:
+        super().__init__(kill_distance, influence_radius)
+        self._cells = kernels.urquhart.voronoi_cells(0)
+
+    def update(self, veins: Vasculature, known: Ids, start: int, stop: int) -> None:
+        """Let new nodes cut the Voronoi cells."""
+        kernels.urquhart.update(
+            veins.material("nodes"),
+            veins.nodes.arrays["parent"],
+            start,
+            stop,
+            veins.material("sources"),
+            known,
+            veins.perceived,
+            self._cells,
+        )
+
+    def perceive_new(self, veins: Vasculature, born: Ids) -> None:
+        """Find Voronoi cells, and the Urquhart neighbours among their neighbours."""
+        if len(self._cells.n_corners) < veins.sources.capacity:
+            self._cells = kernels.urquhart.enlarged(self._cells, veins.sources.capacity)
+        low_x, low_y, high_x, high_y = veins.box
+        kernels.urquhart.perceive_new(
+            veins.node_grid,
+            veins.material("nodes"),
+            veins.nodes.arrays["parent"],
+            veins.material("sources"),
+            born,
+            veins.perceived,
+            self._cells,
+            max(high_x - low_x, high_y - low_y),
+        )
 
 
 class PerceptionParameters(Parameters):
