@@ -4,7 +4,9 @@ from pathlib import Path
 
 import numpy as np
 from fields import field_figure
-from panels import output_of, save
+from panels import output_of
+
+from vasc.render import save
 
 POINTS = np.array([[-28.0, 70.0], [28.0, 70.0]])
 

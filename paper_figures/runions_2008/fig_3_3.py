@@ -4,7 +4,9 @@ from pathlib import Path
 
 import numpy as np
 from fields import field_figure
-from panels import output_of, save
+from panels import output_of
+
+from vasc.render import save
 
 POINTS = np.array([[-34.0, 62.0], [16.0, 84.0], [40.0, 58.0]])
 

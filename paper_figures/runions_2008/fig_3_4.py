@@ -14,8 +14,9 @@ from panels import (
     output_of,
     panels,
     rectangle,
-    save,
 )
+
+from vasc.render import save
 
 BIASES = (0.0, 0.35, 0.7, -0.35, -0.7)
 FAN = np.linspace(0.8, -0.8, 17)

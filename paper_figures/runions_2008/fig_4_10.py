@@ -17,17 +17,17 @@ from panels import (
     letters,
     output_of,
     panels,
-    save,
 )
 
+from vasc.render import save
 from vasc.state import State
 
 GUIDE = (0.0, 2.5)
 """Source that lets the first three nodes grow, and is reached by the last of them."""
-SOURCES = [(-1.15, 3.75), (1.3, 1.62), (-1.5, 1.45), (-1.75, 0.6)]
-CANDIDATES = np.array([(1.35, 3.85), (-1.75, 2.95), (1.75, 0.95)])
+SOURCES = [(-1.15, 3.64), (1.21, 1.68), (-1.5, 1.45), (-1.75, 0.62)]
+CANDIDATES = np.array([(-2.2, 2.3), (1.2, 4.0), (1.9, 0.95)])
 BIRTH_DISTANCE = 1.5
-LENGTH, GROWTH = 4.3, 0.62
+LENGTH, GROWTH = 4.1, 0.62
 BOX = (-3.7, -1.0, 3.7, 7.4)
 
 
@@ -40,6 +40,7 @@ def grown_states(added: NDArray) -> list[State]:
         domain={"shape": "ovate", "length": LENGTH, "width": 0.95, "seeds": [[0.0, 0.0]]},
         growth={"kind": "marginal", "final_length": LENGTH + 4 * GROWTH, "length_per_step": GROWTH},
         placement=given(points, births),
+        extension={"stall_rule": False},  # equation 3.1 to the letter
         arrival={"kill_distance": KILL_DISTANCE},
         stop={"steps": 4},
     )

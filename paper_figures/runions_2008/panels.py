@@ -18,7 +18,6 @@ from numpy.typing import ArrayLike, NDArray
 from vasc.config import load, parse_override
 from vasc.models import MODELS
 from vasc.network import VeinNetwork
-from vasc.render import save
 from vasc.simulation import simulate
 from vasc.state import State
 from vasc.streams import Streams
