@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vasc.kernels.compiled import compiled
+from vasc.kernels.compiled import compiled, unowned
 
 SOURCES_PER_BLOCK = 16
 
@@ -78,7 +78,7 @@ def blocks_of(sources: NDArray[np.float64], live: NDArray[np.int32]) -> Blocks:
     return Blocks(order, starts, boxes)
 
 
-@compiled
+@unowned
 def box_far_distance(
     low_x: float, low_y: float, high_x: float, high_y: float, x: float, y: float
 ) -> float:

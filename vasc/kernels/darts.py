@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vasc.kernels.compiled import compiled
+from vasc.kernels.compiled import compiled, unowned
 from vasc.kernels.hash_grid import HashGrid, any_within, cell_of, insert, squared_distance
 from vasc.kernels.polygon import EdgeGrid, is_inside
 
@@ -49,7 +49,7 @@ def dart_cells(
     )
 
 
-@compiled
+@unowned
 def cover(
     cells: DartCells, nodes: NDArray[np.float64], start: int, stop: int, radius: float
 ) -> None:
@@ -94,7 +94,7 @@ def aim(cells: DartCells, uniforms: NDArray[np.float64]) -> NDArray[np.float64]:
     return darts
 
 
-@compiled
+@unowned
 def live_within(
     grid: HashGrid,
     sources: NDArray[np.float64],
@@ -119,7 +119,7 @@ def live_within(
     return False
 
 
-@compiled
+@unowned
 def throw(
     darts: NDArray[np.float64],
     outline: EdgeGrid,

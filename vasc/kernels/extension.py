@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vasc.kernels.compiled import compiled
+from vasc.kernels.compiled import compiled, unowned
 from vasc.kernels.perceived import Perceived
 from vasc.kernels.tags import Tags, is_pulled
 
@@ -36,7 +36,7 @@ def pulls(capacity: int) -> Pulls:
     )
 
 
-@compiled
+@unowned
 def sum_pulls(
     live: NDArray[np.int32],
     sources: NDArray[np.float64],

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vasc.kernels.compiled import compiled
+from vasc.kernels.compiled import unowned
 
 STACK_SIZE = 512
 SLACK = 1e-9
@@ -75,7 +75,7 @@ def hash_grid(box: tuple[float, float, float, float], side: float, capacity: int
     )
 
 
-@compiled
+@unowned
 def cell_of(value: float, low: float, side: float, n_cells: int) -> int:
     """Give the row or column of the cell that holds a coordinate, the rim for what is outside."""
     cell = (value - low) / side
@@ -86,7 +86,7 @@ def cell_of(value: float, low: float, side: float, n_cells: int) -> int:
     return int(cell)
 
 
-@compiled
+@unowned
 def _insert_one(grid: HashGrid, points: NDArray[np.float64], point: int) -> None:
     """Put one point into its cell and mark the cells above."""
     columns, rows = grid.shapes[0, 0], grid.shapes[0, 1]
@@ -104,21 +104,21 @@ def _insert_one(grid: HashGrid, points: NDArray[np.float64], point: int) -> None
         column >>= 1
 
 
-@compiled
+@unowned
 def insert(grid: HashGrid, points: NDArray[np.float64], start: int, stop: int) -> None:
     """Put the points ``start`` to ``stop`` into the grid."""
     for point in range(start, stop):
         _insert_one(grid, points, point)
 
 
-@compiled
+@unowned
 def insert_chosen(grid: HashGrid, points: NDArray[np.float64], chosen: NDArray[np.int32]) -> None:
     """Put some points into the grid, given by their ids."""
     for point in chosen:
         _insert_one(grid, points, point)
 
 
-@compiled
+@unowned
 def cell_bounds(
     grid: HashGrid, level: int, column: int, row: int
 ) -> tuple[float, float, float, float]:
@@ -140,7 +140,7 @@ def cell_bounds(
     return low_x, low_y, high_x, high_y
 
 
-@compiled
+@unowned
 def box_distance(
     low_x: float, low_y: float, high_x: float, high_y: float, x: float, y: float
 ) -> float:
@@ -158,7 +158,7 @@ def box_distance(
     return dx * dx + dy * dy
 
 
-@compiled
+@unowned
 def squared_distance(ax: float, ay: float, bx: float, by: float) -> float:
     """Give the squared distance of two points; the same bytes in either order."""
     dx = ax - bx
@@ -166,8 +166,8 @@ def squared_distance(ax: float, ay: float, bx: float, by: float) -> float:
     return dx * dx + dy * dy
 
 
-@compiled
-def _push_children(
+@unowned
+def push_children(
     grid: HashGrid, level: int, column: int, row: int, x: float, y: float, top: int
 ) -> int:
     """Put the occupied cells below a cell on the stack, the nearest to a point last."""
@@ -195,7 +195,7 @@ def _push_children(
     return top
 
 
-@compiled
+@unowned
 def push_root(grid: HashGrid) -> int:
     """Begin a search at the top of the pyramid; gives the height of the stack."""
     level = grid.shapes.shape[0] - 1
@@ -208,7 +208,7 @@ def push_root(grid: HashGrid) -> int:
     return 1
 
 
-@compiled
+@unowned
 def nearest(grid: HashGrid, points: NDArray[np.float64], x: float, y: float) -> tuple[int, float]:
     """Give the nearest point (of equals the lowest id) and its squared distance, or -1."""
     best = -1
@@ -220,7 +220,7 @@ def nearest(grid: HashGrid, points: NDArray[np.float64], x: float, y: float) -> 
             continue
         level, column, row = grid.stack[top, 0], grid.stack[top, 1], grid.stack[top, 2]
         if level > 0:
-            top = _push_children(grid, level, column, row, x, y, top)
+            top = push_children(grid, level, column, row, x, y, top)
             continue
         point = grid.head[row * grid.shapes[0, 0] + column]
         while point >= 0:
@@ -232,7 +232,7 @@ def nearest(grid: HashGrid, points: NDArray[np.float64], x: float, y: float) -> 
     return best, best_distance
 
 
-@compiled
+@unowned
 def any_within(
     grid: HashGrid, points: NDArray[np.float64], x: float, y: float, limit: float
 ) -> bool:

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from vasc.kernels.blocks import blocks_of
-from vasc.kernels.compiled import compiled
+from vasc.kernels.blocks import Blocks, blocks_of
+from vasc.kernels.compiled import compiled, unowned
 from vasc.kernels.hash_grid import HashGrid, box_distance, nearest, squared_distance
 from vasc.kernels.perceived import OTHER_VEINS, SAME_VEINS, Perceived
 
@@ -28,24 +28,18 @@ def perceive_new(
             perceived.n_members[s] = 1
 
 
-@compiled
-def update(
-    grid: HashGrid,
+@unowned
+def _serve_blocks(
     nodes: NDArray[np.float64],
     parents: NDArray[np.int32],
     start: int,
     stop: int,
     sources: NDArray[np.float64],
-    live: NDArray[np.int32],
+    blocks: Blocks,
     perceived: Perceived,
 ) -> None:
-    """Bring the nearest nodes of all live sources up to date with nodes ``start`` to ``stop``.
-
-    A new node takes over only where it is nearer: of equals the older stays.
-    """
-    if len(live) == 0 or stop == start:
-        return
-    order, starts, boxes = blocks_of(sources, live)
+    """Offer the new nodes to every block, and to the sources of those they may be nearest to."""
+    order, starts, boxes = blocks.order, blocks.starts, blocks.boxes
     for b in range(len(starts) - 1):
         first, last = starts[b], starts[b + 1]
         if first == last:
@@ -71,3 +65,24 @@ def update(
                     perceived.distances[s, 0] = distance
                     perceived.members[s, 0] = c
                     perceived.n_members[s] = 1
+
+
+@compiled
+def update(
+    grid: HashGrid,
+    nodes: NDArray[np.float64],
+    parents: NDArray[np.int32],
+    start: int,
+    stop: int,
+    sources: NDArray[np.float64],
+    live: NDArray[np.int32],
+    perceived: Perceived,
+) -> None:
+    """Bring the nearest nodes of all live sources up to date with nodes ``start`` to ``stop``.
+
+    A new node takes over only where it is nearer: of equals the older stays.
+    """
+    if len(live) == 0 or stop == start:
+        return
+    blocks = blocks_of(sources, live)
+    _serve_blocks(nodes, parents, start, stop, sources, blocks, perceived)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vasc.kernels.compiled import compiled
+from vasc.kernels.compiled import unowned
 
 MAX_MEMBERS = 8
 """A relative neighbourhood has at most six members, seven with a node on the source."""
@@ -58,7 +58,7 @@ def enlarged(old: Perceived, capacity: int) -> Perceived:
     return new
 
 
-@compiled
+@unowned
 def count_changed(live: NDArray[np.int32], perceived: Perceived, least: int) -> int:
     """Count the pairs that :func:`take_changed` will write."""
     n_pairs = 0
@@ -68,7 +68,7 @@ def count_changed(live: NDArray[np.int32], perceived: Perceived, least: int) -> 
     return n_pairs
 
 
-@compiled
+@unowned
 def take_changed(
     live: NDArray[np.int32],
     perceived: Perceived,

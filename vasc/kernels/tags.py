@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vasc.kernels.compiled import compiled
+from vasc.kernels.compiled import unowned
 from vasc.kernels.perceived import MAX_MEMBERS, Perceived
 
 
@@ -39,7 +39,7 @@ def enlarged(old: Tags, capacity: int) -> Tags:
     return new
 
 
-@compiled
+@unowned
 def is_tagged(
     tags: Tags, s: int, v: int, parents: NDArray[np.int32], births: NDArray[np.int32]
 ) -> bool:
@@ -56,7 +56,7 @@ def is_tagged(
     return False
 
 
-@compiled
+@unowned
 def is_pulled(
     tags: Tags,
     perceived: Perceived,
@@ -80,7 +80,7 @@ def is_pulled(
     return is_tagged(tags, s, perceived.members[s, k], parents, births)
 
 
-@compiled
+@unowned
 def retag(
     tags: Tags,
     steps: NDArray[np.int32],

@@ -10,10 +10,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vasc.kernels.compiled import compiled
-from vasc.kernels.hash_grid import HashGrid, _push_children, box_distance, cell_bounds, push_root
+from vasc.kernels.compiled import compiled, unowned
+from vasc.kernels.hash_grid import HashGrid, box_distance, cell_bounds, push_children, push_root
+from vasc.kernels.lune import excludes
 from vasc.kernels.perceived import MAX_MEMBERS, OTHER_VEINS, SAME_VEINS, Perceived
-from vasc.kernels.relative_neighbors import excludes
 
 MAX_CORNERS = 48
 FAR = 1000.0
@@ -49,7 +49,7 @@ def enlarged(old: VoronoiCells, capacity: int) -> VoronoiCells:
     return new
 
 
-@compiled
+@unowned
 def _cuts(cells: VoronoiCells, s: int, k: int, wx: float, wy: float) -> float:
     """Tell by its sign whether a corner is nearer to the node at (wx, wy) than to the source."""
     x, y = cells.corners[s, k, 0], cells.corners[s, k, 1]
@@ -60,7 +60,7 @@ def _cuts(cells: VoronoiCells, s: int, k: int, wx: float, wy: float) -> float:
     return value
 
 
-@compiled
+@unowned
 def _is_cut(cells: VoronoiCells, s: int, wx: float, wy: float) -> bool:
     """Tell whether a node at (wx, wy) from the source takes a part of its cell."""
     for k in range(cells.n_corners[s]):
@@ -69,7 +69,7 @@ def _is_cut(cells: VoronoiCells, s: int, wx: float, wy: float) -> bool:
     return False
 
 
-@compiled
+@unowned
 def _is_neighbor(cells: VoronoiCells, s: int, v: int) -> bool:
     """Tell whether a node has cut the cell already and still bounds it."""
     for k in range(cells.n_corners[s]):
@@ -78,7 +78,7 @@ def _is_neighbor(cells: VoronoiCells, s: int, v: int) -> bool:
     return False
 
 
-@compiled
+@unowned
 def _cut(
     cells: VoronoiCells,
     s: int,
@@ -114,7 +114,7 @@ def _cut(
     cells.n_corners[s] = n_new
 
 
-@compiled
+@unowned
 def _next_cutter(
     grid: HashGrid, nodes: NDArray[np.float64], x: float, y: float, s: int, cells: VoronoiCells
 ) -> int:
@@ -139,7 +139,7 @@ def _next_cutter(
         if is_far:
             continue
         if level > 0:
-            top = _push_children(grid, level, column, row, x, y, top)
+            top = push_children(grid, level, column, row, x, y, top)
             continue
         v = grid.head[row * grid.shapes[0, 0] + column]
         while v >= 0:
@@ -154,7 +154,7 @@ def _next_cutter(
     return best
 
 
-@compiled
+@unowned
 def _perceive(
     nodes: NDArray[np.float64],
     parents: NDArray[np.int32],
@@ -204,7 +204,7 @@ def _perceive(
     perceived.change[s] = max(perceived.change[s], _change(parents, s, perceived))
 
 
-@compiled
+@unowned
 def _change(parents: NDArray[np.int32], s: int, perceived: Perceived) -> int:
     """Tell how a set differs from the previous one."""
     n_previous, n_members = perceived.n_previous[s], perceived.n_members[s]
@@ -221,7 +221,7 @@ def _change(parents: NDArray[np.int32], s: int, perceived: Perceived) -> int:
     return OTHER_VEINS
 
 
-@compiled
+@unowned
 def _squared(nodes: NDArray[np.float64], v: int, x: float, y: float) -> float:
     """Give the squared distance from a node to a point."""
     dx = nodes[v, 0] - x
