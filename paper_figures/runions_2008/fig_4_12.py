@@ -22,11 +22,11 @@ from panels import (
 from vasc.render import save
 
 CURVES = (
-    [(-30, -26), (28, -30), (36, 4), (6, 34), (-30, 20)],
+    [(-32, -26), (30, -30), (34, 24), (-28, 30)],
     [(-38, -16), (0, -24), (40, -14), (36, 18), (-4, 22), (-38, 16)],
     [(-24, -30), (26, -26), (22, 8), (2, 36), (-20, 14)],
 )
-SOURCES = ((0.0, -2.0), (3.0, 0.0), (1.0, -8.0))
+SOURCES = ((1.0, -1.0), (3.0, 0.0), (1.0, -8.0))
 BOX = (-46.0, -40.0, 46.0, 42.0)
 
 
@@ -47,7 +47,7 @@ def nodes_along(corners: NDArray, roundness: float = 0.12) -> NDArray[np.float64
 def draw_boundary(ax: Axes, nodes: NDArray) -> None:
     """Draw the existing veins."""
     ring = np.vstack([nodes, nodes[:1]])
-    ax.plot(*ring.T, color=INK, linewidth=3.0, solid_joinstyle="round", zorder=3)
+    ax.plot(*ring.T, color=INK, linewidth=3.0, solid_capstyle="round", zorder=3)
 
 
 def main(output: Path) -> None:

@@ -55,7 +55,7 @@ def main(output: Path) -> None:
         draw_points(ax, SOURCE, RED, size=8.0)
         for name, (x, y) in {**NODES, "s": (0.0, 0.0)}.items():
             ax.text(x + 1.6, y + 1.8, name, fontsize=11, style="italic", zorder=9)
-        ax.set_title(title, fontsize=8.0, y=0.01)
+        ax.set_title(title, fontsize=8.0, y=0.01, backgroundcolor="white")
         frame(ax)
     letters(axes)
     save(figure, output)

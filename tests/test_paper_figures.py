@@ -1,0 +1,101 @@
+"""Every script of the gallery draws its figure."""
+
+import importlib.util
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import matplotlib.image
+import pytest
+
+FOLDER = Path(__file__).resolve().parent.parent / "paper_figures"
+SCRIPTS = sorted(FOLDER.glob("*/fig_*.py"))
+FAST = ["3_2", "3_3", "3_4", "3_5", "4_10", "4_11", "4_12", "4_13"]
+SLOW = [path.stem.removeprefix("fig_") for path in SCRIPTS]
+SLOW = [number for number in SLOW if number not in FAST]
+
+
+def script(number):
+    return FOLDER / "runions_2008" / f"fig_{number}.py"
+
+
+def load(path, monkeypatch):
+    """Import a script as Python does when it is run: with its folder on the path."""
+    monkeypatch.syspath_prepend(str(path.parent))
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def check_picture(path):
+    pixels = matplotlib.image.imread(path)[:, :, :3]
+    assert 300 <= max(pixels.shape) <= 1400
+    ink = (pixels.min(axis=2) < 0.9).mean()
+    assert 0.005 < ink < 0.95
+
+
+@pytest.mark.parametrize("number", FAST)
+def test_a_diagram_is_drawn(number, tmp_path, monkeypatch):
+    output = tmp_path / "figure.png"
+    load(script(number), monkeypatch).main(output)
+    check_picture(output)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", SLOW)
+def test_leaves_are_drawn(number, tmp_path, monkeypatch):
+    output = tmp_path / "figure.png"
+    load(script(number), monkeypatch).main(output)
+    check_picture(output)
+
+
+def test_a_script_is_run_as_the_gallery_says(tmp_path):
+    root = FOLDER.parent
+    run = subprocess.run(
+        [sys.executable, str(script("4_13")), "-o", str(tmp_path / "a.png")],
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": str(root)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert run.returncode == 0, run.stderr
+    check_picture(tmp_path / "a.png")
+
+
+def test_the_gallery_names_every_script_and_no_other():
+    text = (FOLDER / "README.md").read_text()
+    named = re.findall(r"\((runions_2008/fig_\w+\.py)\)", text)
+    assert sorted(named) == [path.relative_to(FOLDER).as_posix() for path in SCRIPTS]
+
+
+def test_the_configs_of_the_gallery_exist():
+    text = (FOLDER / "README.md").read_text()
+    named = re.findall(r"\(\.\./configs/([\w-]+)\.toml\)", text)
+    assert named
+    known = {path.stem for path in (FOLDER.parent / "configs").glob("*.toml")}
+    assert set(named) <= known
+
+
+def test_the_space_colonization_step_splits_a_pair_of_points(monkeypatch):
+    from_colonization = load(script("3_5"), monkeypatch).colonization()
+    assert from_colonization.before.network.n_nodes == 6
+    before, after = from_colonization.nearest, from_colonization.after
+    # the top and the right point attract one node, and two the step after (section 3.1.3)
+    assert before[0] == before[1]
+    left = after.sources.positions
+    gaps = ((left[:, None] - after.network.positions) ** 2).sum(axis=2)
+    assert len(left) == 2
+    assert len(set(gaps.argmin(axis=1).tolist())) == 2
+
+
+def test_urquhart_keeps_what_the_exact_neighbourhood_excludes(monkeypatch):
+    figure = load(script("4_13"), monkeypatch)
+    nodes = list(figure.NODES.values())
+    attracted = figure.attracted
+    exact = attracted(figure.np.array(nodes), figure.SOURCE)
+    approximate = attracted(figure.np.array(nodes), figure.SOURCE, "urquhart")
+    assert approximate - exact == {list(figure.NODES).index("v")}
