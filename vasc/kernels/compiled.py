@@ -9,12 +9,14 @@ from numba import njit
 compiled = njit(cache=True, error_model="numpy")
 """Decorator of a kernel that makes arrays of its own."""
 
-unowned = njit(cache=True, error_model="numpy", _nrt=False)
+unowned = njit(cache=True, error_model="numpy", _nrt=False)  # type: ignore[call-overload]
 """Decorator of a kernel that only reads and writes the arrays it is given.
 
 The arrays belong to the caller, so that nothing need count references to them:
 counting took almost half of the time of a run.
 """
 
-inlined = njit(cache=True, error_model="numpy", _nrt=False, inline="always")
+inlined = njit(  # type: ignore[call-overload]
+    cache=True, error_model="numpy", _nrt=False, inline="always"
+)
 """Decorator of a part of such a kernel that is called from one place in an inner loop."""

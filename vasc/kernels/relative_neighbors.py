@@ -32,6 +32,9 @@ from vasc.kernels.offers import (
 )
 from vasc.kernels.perceived import MAX_MEMBERS, OTHER_VEINS, Perceived
 
+ROUNDING = 4e-15
+"""Above the relative error of a squared distance."""
+
 MAX_VISITED = 64
 """Above the number of nodes that can be visited: any two are at least 60 degrees apart."""
 
@@ -53,7 +56,12 @@ def _cell_is_behind(
         least += 2.0 * dy * (low_y - y)
     elif dy < 0.0:
         least += 2.0 * dy * (high_y - y)
-    return least > 0.0
+    # The plain test compares rounded squared distances: where these are large, a small
+    # lead is lost in them, and what is pruned here must be excluded there.
+    side = grid.corner[2] * (1 << level)
+    far_x = abs(grid.corner[0] + (column + 0.5) * side - x) + 0.5 * side
+    far_y = abs(grid.corner[1] + (row + 0.5) * side - y) + 0.5 * side
+    return least > ROUNDING * (far_x * far_x + far_y * far_y)
 
 
 @unowned

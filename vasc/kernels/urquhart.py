@@ -5,6 +5,7 @@ its edges name the Delaunay neighbours (Runions 2008, section 4.4.2). Nodes that
 are not Delaunay neighbours exclude nobody, which is the approximation (Figure 4.13).
 """
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -44,7 +45,8 @@ def voronoi_cells(capacity: int) -> VoronoiCells:
 def enlarged(old: VoronoiCells, capacity: int) -> VoronoiCells:
     """Give a copy with room for more sources."""
     new = voronoi_cells(capacity)
-    for source, target in zip(old, new, strict=True):
+    pairs: Iterable[tuple[NDArray, NDArray]] = zip(old, new, strict=True)
+    for source, target in pairs:
         target[: len(source)] = source
     return new
 

@@ -1,0 +1,97 @@
+"""The incremental neighbourhoods equal the obvious ones, whatever the order of the nodes."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from reference import colonization as slow
+
+from vasc import kernels
+
+COARSE = st.tuples(st.integers(-4, 4), st.integers(-4, 4)).map(lambda p: (float(p[0]), float(p[1])))
+FINE = st.tuples(st.floats(-5.0, 5.0), st.floats(-5.0, 5.0))
+LINE = st.integers(-6, 6).map(lambda x: (float(x), 0.0))
+PLACES = st.one_of(COARSE, FINE, LINE)
+
+
+def follow(kernel, nodes, sources, first):
+    """Perceive the sources among the first nodes, then offer the rest in small batches."""
+    points = np.array(nodes, dtype=float).reshape(-1, 2)
+    places = np.array(sources, dtype=float).reshape(-1, 2)
+    parents = np.arange(-1, len(points) - 1, dtype=np.int32)
+    grid = kernels.hash_grid.hash_grid((-3.0, -3.0, 3.0, 3.0), 0.9, len(points))
+    perceived = kernels.perceived.perceived(len(places))
+    live = np.arange(len(places), dtype=np.int32)
+    kernels.hash_grid.insert(grid, points, 0, first)
+    kernel.perceive_new(grid, points, places, live, perceived)
+    yield first, perceived
+    for start in range(first, len(points), 3):
+        stop = min(start + 3, len(points))
+        kernels.hash_grid.insert(grid, points, start, stop)
+        kernel.update(grid, points, parents, start, stop, places, live, perceived)
+        yield stop, perceived
+
+
+def members(perceived, s):
+    """The set of a source, as a list."""
+    return perceived.members[s, : perceived.n_members[s]].tolist()
+
+
+@pytest.mark.parametrize(
+    ("name", "rule"),
+    [("relative_neighbors", slow.relative_neighbors), ("nearest", slow.nearest)],
+)
+@settings(max_examples=150, deadline=None)
+@given(
+    nodes=st.lists(PLACES, min_size=1, max_size=40),
+    sources=st.lists(PLACES, min_size=1, max_size=8),
+    first=st.integers(1, 40),
+)
+def test_sets_follow_the_rule_after_every_batch(name, rule, nodes, sources, first):
+    kernel = getattr(kernels, name)
+    for n_nodes, perceived in follow(kernel, nodes, sources, min(first, len(nodes))):
+        for s, place in enumerate(sources):
+            assert members(perceived, s) == rule(place, nodes[:n_nodes])
+
+
+def test_many_random_nodes():
+    rng = np.random.default_rng(3)
+    nodes = [tuple(p) for p in rng.normal(size=(250, 2)).tolist()]
+    sources = [tuple(p) for p in rng.normal(size=(60, 2)).tolist()]
+    for n_nodes, perceived in follow(kernels.relative_neighbors, nodes, sources, 1):
+        if n_nodes % 50 == 1 or n_nodes == len(nodes):
+            for s, place in enumerate(sources):
+                assert members(perceived, s) == slow.relative_neighbors(place, nodes[:n_nodes])
+
+
+def test_a_ring_of_six_has_six_members():
+    angles = np.arange(6) * np.pi / 3
+    nodes = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    far = 1.0 + 1e-9 * np.array([1, -1, 1, -1, 1, -1])
+    nodes = [tuple(p) for p in (nodes * far[:, None]).tolist()]
+    *_, (_, perceived) = follow(kernels.relative_neighbors, nodes, [(0.0, 0.0)], 6)
+    assert members(perceived, 0) == slow.relative_neighbors((0.0, 0.0), nodes)
+
+
+def test_no_source_and_no_new_node_change_nothing():
+    points = np.zeros((1, 2))
+    grid = kernels.hash_grid.hash_grid((0.0, 0.0, 1.0, 1.0), 1.0, 1)
+    perceived = kernels.perceived.perceived(0)
+    none = np.empty(0, dtype=np.int32)
+    parents = np.array([-1], dtype=np.int32)
+    kernels.relative_neighbors.update(
+        grid, points, parents, 0, 1, np.empty((0, 2)), none, perceived
+    )
+    assert len(perceived.n_members) == 0
+
+
+@settings(max_examples=100, deadline=None)
+@given(points=st.lists(PLACES, max_size=40), place=PLACES, limit=st.floats(0.0, 9.0))
+def test_grid_searches_equal_plain_ones(points, place, limit):
+    array = np.array(points, dtype=float).reshape(-1, 2)
+    grid = kernels.hash_grid.hash_grid((-2.0, -2.0, 2.0, 2.0), 0.7, len(points))
+    kernels.hash_grid.insert(grid, array, 0, len(points))
+    found, _ = kernels.hash_grid.nearest(grid, array, *place)
+    assert [found] == (slow.nearest(place, points) or [-1])
+    expected = any(slow.square(p, place) <= limit for p in points)
+    assert kernels.hash_grid.any_within(grid, array, *place, limit) == expected
