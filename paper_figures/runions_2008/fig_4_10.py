@@ -25,7 +25,7 @@ from vasc.state import State
 GUIDE = (0.0, 2.5)
 """Source that lets the first three nodes grow, and is reached by the last of them."""
 SOURCES = [(-1.15, 3.64), (1.21, 1.68), (-1.5, 1.45), (-1.75, 0.62)]
-CANDIDATES = np.array([(-2.15, 2.0), (1.2, 3.8), (1.9, 0.95)])
+CANDIDATES = np.array([(-2.2, 2.15), (1.2, 3.6), (1.9, 0.95)])
 BIRTH_DISTANCE = 1.4
 LENGTH, GROWTH = 4.1, 0.62
 BOX = (-3.7, -1.0, 3.7, 7.4)

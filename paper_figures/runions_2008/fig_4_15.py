@@ -7,7 +7,7 @@ from panels import grown_leaf, output_of
 
 from vasc.render import save
 
-CONFIGS = ("ginkgo",)
+CONFIGS = ("ginkgo-leaf",)
 
 
 def main(output: Path) -> None:
