@@ -1,0 +1,43 @@
+"""Growth is a map: forth and back, at every step."""
+
+import numpy as np
+import pytest
+
+from vasc.domain import BladeParameters
+from vasc.growth import IsogonicParameters, MarginalParameters, NoGrowthParameters
+
+BLADE = BladeParameters(shape="ovate", length=10.0).blade()
+GROWTHS = {
+    "none": NoGrowthParameters().growth(BLADE),
+    "marginal": MarginalParameters(final_length=33.0, length_per_step=2.0).growth(BLADE),
+    "isogonic": IsogonicParameters(final_length=33.0, length_per_step=2.0).growth(BLADE),
+}
+
+
+@pytest.mark.parametrize("name", GROWTHS)
+def test_position_and_material_are_inverse(name):
+    growth = GROWTHS[name]
+    points = np.random.default_rng(1).random((50, 2))
+    for step in (0, 1, 7, 100):
+        there = growth.position(points, step)
+        np.testing.assert_allclose(growth.material(there, step), points, rtol=1e-14)
+
+
+def test_what_moves():
+    assert [GROWTHS[name].scale(100) for name in GROWTHS] == [1.0, 1.0, 3.3]
+    assert [GROWTHS[name].outline_scale(100) for name in GROWTHS] == [1.0, 3.3, 3.3]
+
+
+@pytest.mark.parametrize("name", ["marginal", "isogonic"])
+def test_the_final_length_is_reached_in_the_last_step_and_kept(name):
+    growth = GROWTHS[name]
+    assert growth.last_step == 12
+    assert growth.domain(11).length < 33.0
+    assert growth.domain(12).length == pytest.approx(33.0, rel=1e-15)
+    assert growth.domain(5000).length == growth.domain(12).length
+    assert growth.domain(3).length == pytest.approx(16.0)
+
+
+def test_a_blade_that_does_not_grow():
+    assert GROWTHS["none"].last_step == 0
+    assert GROWTHS["none"].domain(9).length == pytest.approx(10.0)
