@@ -1,0 +1,78 @@
+"""A real run killed at any moment: the file opens, resumes, and ends in the same bytes."""
+
+import subprocess
+import sys
+import time
+
+import h5py
+import numpy as np
+import pytest
+
+from vasc.timeline import Timeline, validate
+
+CONFIG = """
+kind = "closed"
+seed = 3
+[domain]
+shape = "deltoid"
+length = 115.0
+[growth]
+kind = "isogonic"
+final_length = 1500.0
+length_per_step = 6.0
+[placement]
+kind = "darts"
+density = 200e-6
+birth_distance_sources = 20.0
+birth_distance_veins = 20.0
+[arrival]
+kill_distance = 1.0
+"""
+
+N_KILLS = 50
+VASC = [sys.executable, "-m", "vasc"]
+
+
+def contents(path):
+    """All columns of the tables and frames of a file."""
+    columns = {}
+
+    def visit(name, item):
+        if isinstance(item, h5py.Dataset) and not name.startswith("provenance"):
+            columns[name] = item[()]
+
+    with h5py.File(path, "r") as file:
+        file.visititems(visit)
+    return columns
+
+
+@pytest.mark.slow
+def test_fifty_kills(tmp_path):
+    config = tmp_path / "leaf.toml"
+    config.write_text(CONFIG)
+    whole = tmp_path / "whole.h5"
+    started = time.monotonic()
+    quiet = ["--quiet", "--no-figure"]
+    subprocess.run([*VASC, "run", config, "-o", whole, *quiet], check=True)
+    seconds = time.monotonic() - started
+    expected = contents(whole)
+    rng = np.random.default_rng(0)
+    n_cut = 0
+    for trial in range(N_KILLS):
+        path = tmp_path / f"{trial}.h5"
+        process = subprocess.Popen([*VASC, "run", config, "-o", path, *quiet])
+        time.sleep(float(rng.uniform(0.3 * seconds, seconds)))
+        process.kill()
+        process.wait()
+        if not path.exists():
+            continue
+        assert validate(path) == [], trial
+        with Timeline(path) as timeline:
+            n_cut += not timeline.is_complete
+        subprocess.run([*VASC, "resume", path, "--quiet"], check=True)
+        found = contents(path)
+        assert found.keys() == expected.keys()
+        for name, column in expected.items():
+            np.testing.assert_array_equal(found[name], column, f"{name} in trial {trial}")
+        path.unlink()
+    assert n_cut > N_KILLS // 4
