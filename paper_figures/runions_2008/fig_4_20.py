@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from leaves import draw_leaves
+from leaves import draw_in_line
 from panels import grown_leaf, output_of
 
 from vasc.render import save
@@ -13,7 +13,7 @@ CONFIGS = ("orchid-leaf", "grass-leaf")
 def main(output: Path) -> None:
     """Draw the figure."""
     states = [grown_leaf(name) for name in CONFIGS]
-    save(draw_leaves(states, 2, ("a)", "b)")), output)
+    save(draw_in_line(states, ("a)", "b)")), output)
 
 
 if __name__ == "__main__":

@@ -46,6 +46,27 @@ def leaf_axes(
 def draw_leaves(states: Sequence[State], columns: int, labels: Sequence[str] = ()) -> Figure:
     """Draw leaves side by side, each as large as its panel."""
     figure, axes = leaf_axes(states, columns)
+    return _filled(figure, axes, states, labels)
+
+
+def draw_in_line(states: Sequence[State], labels: Sequence[str] = ()) -> Figure:
+    """Draw leaves of different proportions in one line, all of them equally high."""
+    widths = np.array([1.0 / _height_over_width(state) for state in states])
+    n_gaps = len(states) + 1
+    height = LONGEST * (1.0 - n_gaps * GAP) / max(1.0, float(widths.sum()))
+    inches = float(widths.sum()) * height + n_gaps * GAP * LONGEST
+    figure = Figure(figsize=(inches, height), facecolor="white")
+    FigureCanvasAgg(figure)
+    shares, gap = widths * height / inches, GAP * LONGEST / inches
+    lefts = np.cumsum(shares + gap) - shares
+    axes = [figure.add_axes((x, 0.0, w, 1.0)) for x, w in zip(lefts, shares, strict=True)]
+    return _filled(figure, axes, states, labels)
+
+
+def _filled(
+    figure: Figure, axes: Sequence[Axes], states: Sequence[State], labels: Sequence[str]
+) -> Figure:
+    """Draw a leaf on every panel."""
     for state, ax in zip(states, axes, strict=True):
         draw_leaf(state, ax, scale_bar=False)
     for text, ax in zip(labels, axes, strict=False):
