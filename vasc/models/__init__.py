@@ -7,7 +7,11 @@ from vasc.models.closed import ClosedVenation
 from vasc.models.open import OpenVenation
 from vasc.parameters import Parameters
 
-MODELS: dict[str, type[Parameters]] = {"open": OpenVenation, "closed": ClosedVenation}
-MODELS.update({point.name: point.load() for point in entry_points(group="vasc.models")})
+MODELS: dict[str, type[Parameters]] = {
+    **{point.name: point.load() for point in entry_points(group="vasc.models")},
+    "open": OpenVenation,
+    "closed": ClosedVenation,
+}
+"""Configs of all models by kind: installed ones, and ours, which none can replace."""
 
 __all__ = ["MODELS", "ClosedVenation", "Model", "OpenVenation", "Venation"]

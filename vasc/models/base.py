@@ -2,12 +2,12 @@
 
 from abc import ABC, abstractmethod
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Union
 
 from pydantic import Field, model_validator
 
 from vasc.domain import BladeParameters
-from vasc.growth import IsogonicParameters, MarginalParameters, NoGrowthParameters
+from vasc.growth import GROWTHS, IsogonicParameters, LinearGrowthParameters, MarginalParameters, NoGrowthParameters
 from vasc.models.arrival import ArrivalParameters
 from vasc.models.extension import ExtensionParameters
 from vasc.models.refinement import NoRefinementParameters, SubdivisionParameters
@@ -37,9 +37,11 @@ class Model(ABC):
         return state.is_finished
 
 
-AnyGrowth = Annotated[
-    NoGrowthParameters | MarginalParameters | IsogonicParameters, Field(discriminator="kind")
-]
+if TYPE_CHECKING:
+    AnyGrowth = NoGrowthParameters | MarginalParameters | IsogonicParameters
+else:
+    # ours, and those that installed packages offer as entry points
+    AnyGrowth = Annotated[Union[tuple(GROWTHS.values())], Field(discriminator="kind")]  # noqa: UP007
 AnyPlacement = Annotated[DartParameters | GivenParameters, Field(discriminator="kind")]
 AnyRefinement = Annotated[
     NoRefinementParameters | SubdivisionParameters, Field(discriminator="kind")
@@ -125,7 +127,7 @@ class Venation(Parameters):
     def _check_growth(self) -> "Venation":
         """Refuse a blade that would have to shrink, and placements that need marginal growth."""
         growth, placement = self.growth, self.placement
-        if not isinstance(growth, NoGrowthParameters) and (
+        if isinstance(growth, LinearGrowthParameters) and (
             growth.final_length < self.domain.length
         ):
             raise ValueError(
