@@ -1,0 +1,64 @@
+"""The bundled experiments: each builds its model, and its whole run ends as it should."""
+
+import numpy as np
+import pytest
+
+from vasc.analysis.topology import count_components, count_cycles, free_ends
+from vasc.config import load
+from vasc.config.bundled import bundled_configs
+from vasc.experiment import run
+from vasc.network import Origin
+from vasc.streams import Streams
+from vasc.timeline import Timeline
+from vasc.timeline.validation import validate
+
+NAMES = [config.name for config in bundled_configs()]
+FREE = {f"param-kill-distance-{letter}" for letter in "abc"}
+"""Closed models whose kill distance is so long that no two veins come near a source."""
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_model_builds(name):
+    experiment = load(name)
+    parameters = experiment.parameters
+    assert parameters.arrival.kill_distance >= parameters.extension.segment_length
+    state = parameters.model(experiment.folder).initial_state(Streams(parameters.seed))
+    assert state.step == 0
+
+
+def test_names_are_those_of_the_table():
+    rows = {
+        *(f"param-kill-distance-{letter}" for letter in "abcde"),
+        *(f"param-darts-{letter}" for letter in "fgh"),
+        *("slow-marginal", "ginkgo-leaf", "alchemilla-leaf", "sweetgum-leaf"),
+        *("toothed-lobed-leaf", "emergent-tertiary", "orchid-leaf", "reticulate-leaf"),
+        *("nankin-cherry-leaf", "grass-leaf", "poplar-leaf", "trillium-petal"),
+    }
+    assert rows <= set(NAMES)
+    assert all(load(name).parameters.printed is not None for name in rows)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", NAMES)
+def test_the_whole_run_ends_as_it_should(name, tmp_path):
+    path = tmp_path / "run.h5"
+    experiment = load(name)
+    summary = run(experiment, path)
+    assert summary.stop_reason == "no_sources"
+    assert summary.sources_left == 0
+    assert validate(path) == []
+    with Timeline(path) as timeline:
+        frame = timeline.frame()
+        network, blade = frame.network, frame.blade
+        n_live = frame.sources.n_sources
+    positions = network.positions
+    assert n_live == 0
+    assert len(np.unique(positions, axis=0)) == len(positions)
+    assert blade.contains(positions[free_ends(network)]).all()
+    n_seeds = int((network.origins == Origin.SEED).sum())
+    n_components, n_cycles = count_components(network), count_cycles(network)
+    if experiment.kind == "open":
+        assert (n_components, n_cycles) == (n_seeds, 0)
+    else:
+        assert n_components <= n_seeds
+        assert n_cycles == 0 if name in FREE else n_cycles > 0
