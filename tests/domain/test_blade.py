@@ -186,3 +186,10 @@ def test_the_limit_of_points_is_exact(n_points, is_allowed):
     else:
         with pytest.raises(OutlineError, match="200,001 points; at most 200,000"):
             Blade.from_rings([ring])
+
+
+def test_an_outline_that_winds_twice_is_refused_though_it_turns_one_way():
+    angles = np.arange(5) * 4.0 * np.pi / 5.0 + 0.3
+    star = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    with pytest.raises(OutlineError, match="cross"):
+        Blade.from_rings([star], [(0.0, 0.0)])

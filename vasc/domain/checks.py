@@ -84,6 +84,8 @@ def check_crossings(rings: tuple[Points, ...]) -> None:
     OutlineError
         If one does; the message names the first place found.
     """
+    if len(rings) == 1 and _winds_once(rings[0]):
+        return
     import shapely
 
     lines = np.array([shapely.LinearRing(ring) for ring in rings])
@@ -104,6 +106,27 @@ def check_crossings(rings: tuple[Points, ...]) -> None:
                 f"outline: rings {a} and {b} cross or touch at {place(point)};"
                 " parts and holes must keep apart"
             )
+
+
+def _winds_once(ring: Points) -> bool:
+    """Tell whether a ring turns about the origin in one direction and once, hence crosses nothing.
+
+    Most outlines do, and need no geometry library, which takes longer to load
+    than a small leaf to grow.
+    """
+    following = np.roll(ring, -1, axis=0)
+    turns = ring[:, 0] * following[:, 1] - ring[:, 1] * following[:, 0]
+    is_at_origin = (ring == 0.0).all(axis=1) | (following == 0.0).all(axis=1)
+    turns = turns[~is_at_origin]
+    if not ((turns > 0.0).all() or (turns < 0.0).all()) or is_at_origin.sum() > 2:
+        return False
+    # edges that cross the ray toward positive x: one a turn
+    is_low, is_next_low = ring[:, 1] < 0.0, following[:, 1] < 0.0
+    crosses = (is_low != is_next_low) & ((ring[:, 0] > 0.0) | (following[:, 0] > 0.0))
+    first, last = ring[crosses], following[crosses]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        at = first[:, 0] - first[:, 1] * (last[:, 0] - first[:, 0]) / (last[:, 1] - first[:, 1])
+    return int((at > 0.0).sum()) <= 1
 
 
 def check_seeds(rings: tuple[Points, ...], seeds: Points) -> None:
