@@ -2,7 +2,7 @@
 
 from enum import IntEnum
 
-from vasc.arrays import NULL, Column
+from vasc.arrays import Column
 
 
 class EventKind(IntEnum):
@@ -38,7 +38,7 @@ class StopReason(IntEnum):
     NO_SOURCES = 0
     """Growth and placement are over and no source is left."""
     NOTHING_PULLED = 1
-    """Growth and placement are over; the sources left pull no vein."""
+    """Growth and placement are over; the sources left extend no vein."""
     LIVELOCK = 2
     """Veins are added again and again without coming nearer to any source."""
     STEP_LIMIT = 3
@@ -51,5 +51,3 @@ EVENT_COLUMNS = {
     "subject": Column("i4", "row of what it happened to"),
     "object": Column("i4", "row of what took part, -1 if none"),
 }
-
-NOBODY = NULL

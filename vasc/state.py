@@ -57,7 +57,7 @@ class State:
     step : int
         Loop count; 0 is the initial state.
     time : float
-        Model time, in the config's unit of time (steps by default).
+        Model time, in steps; ``[units]`` gives a step a duration.
     blade : Blade
         The blade at this time, in real size.
     motion : ndarray of shape (2, 3), float64

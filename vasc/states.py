@@ -48,8 +48,3 @@ STATE_COLUMNS = {
     "id": Column("i4", "row of the node or source"),
     "state": Column("i1", "new state"),
 }
-
-
-def is_legal(kind: Kind, before: int, after: int) -> bool:
-    """Tell whether a change of state is one the models may make."""
-    return (before, after) in TRANSITIONS[kind]

@@ -78,3 +78,20 @@ class Streams:
                 "has_uint32": row[4],
                 "uinteger": row[5],
             }
+
+
+def poisson_count(rng: np.random.Generator, mean: float) -> int:
+    """Draw a Poisson number by counting exponential waiting times.
+
+    Exponential numbers had the same bytes on all processors they were tried on;
+    ``rng.poisson`` makes no such promise.
+    """
+    count = 0
+    elapsed = 0.0
+    while True:
+        waits = rng.standard_exponential(int(mean + 4.0 * np.sqrt(mean)) + 4)
+        for total in (elapsed + np.cumsum(waits)).tolist():
+            if total > mean:
+                return count
+            elapsed = total
+            count += 1

@@ -41,3 +41,10 @@ def test_the_final_length_is_reached_in_the_last_step_and_kept(name):
 def test_a_blade_that_does_not_grow():
     assert GROWTHS["none"].last_step == 0
     assert GROWTHS["none"].domain(9).length == pytest.approx(10.0)
+
+
+def test_nothing_grows_after_the_last_step_whatever_the_rounding():
+    blade = BladeParameters(shape="ovate", length=29.9).blade()
+    growth = MarginalParameters(final_length=766.6, length_per_step=5.3).growth(blade)
+    last = growth.outline_scale(growth.last_step)
+    assert growth.outline_scale(growth.last_step + 1) == last == 766.6 / blade.length

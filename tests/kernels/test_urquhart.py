@@ -52,13 +52,4 @@ def test_the_approximation_is_seldom_wrong_and_never_too_small():
     exact = [slow.relative_neighbors(place, nodes) for place in sources]
     assert all(set(e) <= set(f) for e, f in zip(exact, found, strict=True))
     n_wrong = sum(e != f for e, f in zip(exact, found, strict=True))
-    assert n_wrong <= 12
-
-
-def test_figure_4_13_a_node_that_is_no_delaunay_neighbour_excludes_in_truth_only():
-    s, v, a = (0.0, 0.0), (1.0, 0.0), (0.55, 0.80)
-    shield = [(0.30, 0.28), (0.62, 0.36)]
-    nodes = [v, a, *shield]
-    exact = slow.relative_neighbors(s, nodes)
-    assert perceived_by_kernel(nodes, [s], 4)[0] == urquhart(s, nodes)
-    assert set(exact) <= set(urquhart(s, nodes))
+    assert 1 <= n_wrong <= 12

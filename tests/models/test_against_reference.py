@@ -120,6 +120,15 @@ def test_other_rules(kind, perception, extension, changed):
     assert_same(state, slow.grow([(0.0, 0.0)], given, rules, state.step))
 
 
+@pytest.mark.parametrize("radius", [4.0, 6.0])
+def test_no_source_waits_for_veins_beyond_the_influence_radius(radius):
+    points = sources_in_disc(40, 7)
+    tables = config("closed", points)
+    tables["perception"] = {"kind": "relative", "influence_radius": radius}
+    state = run(tables)
+    assert all(state.sources.states == 0)
+
+
 def test_several_seeds():
     points = sources_in_disc(25, 4)
     tables = config("closed", points)

@@ -98,9 +98,9 @@ def child_of(v, pullers, leaf, rules, scale):
     length = rules.length / scale
     norm = sqrt(total_x * total_x + total_y * total_y)
     if rules.stall_rule and len(pullers) > 1 and 2.0 * dmin * norm <= length * len(pullers):
-        total_x, total_y = leaf.sources[closest][0] - x, leaf.sources[closest][1] - y
-        norm = dmin
         leaf.n_stalled += 1
+        dx, dy = leaf.sources[closest][0] - x, leaf.sources[closest][1] - y
+        return (x + length * (dx / dmin), y + length * (dy / dmin))
     if norm == 0.0:
         return None
     nx, ny = total_x / norm, total_y / norm
@@ -142,7 +142,9 @@ def arrive(leaf, rules, before, step, scale):
             if not near:
                 continue
             leaf.tags[s] = (step, set(before[s]))
-        if any(v not in near and is_tagged(leaf, s, v) for v in now):
+        limit = (rules.influence / scale) ** 2
+        far = [v for v in now if kill <= square(leaf.nodes[v], place) <= limit]
+        if any(is_tagged(leaf, s, v) for v in far):
             continue
         for other in near[1:]:
             join(leaf, rules, near[0], other, scale)

@@ -3,9 +3,10 @@
 import json
 from collections.abc import Mapping
 from functools import cache
-from typing import Any
+from importlib.metadata import entry_points
+from typing import Annotated, Any, Union
 
-from pydantic import ValidationError, create_model
+from pydantic import Field, ValidationError, create_model
 
 from vasc.analysis.widths import WidthParameters
 from vasc.config.messages import problems, unknown_kind
@@ -19,10 +20,47 @@ Models = Mapping[str, type[Parameters]]
 
 @cache
 def models() -> Models:
-    """Give what a config may hold for every model, ours and installed ones, by kind."""
+    """Give what a config may hold for every model by kind: installed ones, and ours.
+
+    Our models know installed growths, too. None of ours can be replaced.
+    """
+    from vasc.growth import GROWTHS
     from vasc.models import MODELS
 
-    return {kind: with_drawing(model) for kind, model in MODELS.items()}
+    growths = {**installed("vasc.growth"), **GROWTHS}
+    ours = {kind: with_growths(model, growths) for kind, model in MODELS.items()}
+    known = {**installed("vasc.models"), **ours}
+    return {kind: with_drawing(model) for kind, model in known.items()}
+
+
+def installed(group: str) -> dict[str, type[Parameters]]:
+    """Load what installed packages offer as entry points of a group, by name.
+
+    Raises
+    ------
+    ConfigError
+        If a package cannot be loaded; the message names it.
+    """
+    found = {}
+    for point in entry_points(group=group):
+        try:
+            found[point.name] = point.load()
+        except Exception as error:
+            raise ConfigError(
+                f"the installed {group} {point.name!r} ({point.value}) cannot be loaded: {error}"
+            ) from error
+    return found
+
+
+def with_growths(
+    model: type[Parameters], growths: Mapping[str, type[Parameters]]
+) -> type[Parameters]:
+    """Let the growth of a model be any of those given."""
+    any_growth: Any = Union[tuple(growths.values())]  # noqa: UP007
+    any_growth = Annotated[any_growth, Field(discriminator="kind")]
+    field = model.model_fields["growth"]
+    growth = quantity(field.description or "", default=field.default)
+    return _widened(model, growth=(any_growth, growth))
 
 
 def with_drawing(model: type[Parameters]) -> type[Parameters]:
@@ -31,14 +69,19 @@ def with_drawing(model: type[Parameters]) -> type[Parameters]:
     A model does not know how it will be drawn, and a config is one file.
     """
     widths = quantity("How wide veins are, for pictures.", default=WidthParameters())
-    drawn: type[Parameters] = create_model(
+    return _widened(model, widths=(WidthParameters, widths))
+
+
+def _widened(model: type[Parameters], **fields: Any) -> type[Parameters]:
+    """Give a model's parameters with fields added or replaced."""
+    widened: type[Parameters] = create_model(
         model.__name__,
         __base__=model,
         __module__=model.__module__,
         __doc__=model.__doc__,
-        widths=(WidthParameters, widths),
+        **fields,
     )
-    return drawn
+    return widened
 
 
 def parameters_from(tables: dict[str, Any], known: Models | None = None) -> Parameters:

@@ -1,7 +1,5 @@
 """How a blade grows: maps between material coordinates and positions."""
 
-from importlib.metadata import entry_points
-
 from vasc.growth.base import Growth, LinearGrowthParameters
 from vasc.growth.isogonic import IsogonicGrowth, IsogonicParameters
 from vasc.growth.marginal import MarginalGrowth, MarginalParameters
@@ -9,12 +7,11 @@ from vasc.growth.none import NoGrowth, NoGrowthParameters
 from vasc.parameters import Parameters
 
 GROWTHS: dict[str, type[Parameters]] = {
-    **{point.name: point.load() for point in entry_points(group="vasc.growth")},
     "none": NoGrowthParameters,
     "marginal": MarginalParameters,
     "isogonic": IsogonicParameters,
 }
-"""Parameters of all growths by kind: installed ones, and ours, which none can replace."""
+"""Parameters of our growths by kind; configs know installed ones, too."""
 
 __all__ = [
     "GROWTHS",

@@ -78,6 +78,8 @@ class LinearGrowth(Growth):
 
     def length_ratio(self, step: int) -> float:
         """Give the blade length at a step over the initial one (section 4.2.3)."""
+        if step >= self._last_step:
+            return max(self.final_length, self.blade.length) / self.blade.length
         length = min(self.final_length, self.blade.length + step * self.length_per_step)
         return length / self.blade.length
 

@@ -29,12 +29,14 @@ def tag_and_wait(
     births: NDArray[np.int32],
     step: int,
     kill: float,
+    influence: float,
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Tag the sources that a vein has come near, and find those that wait no more.
 
     A source whose nearest node is within the kill distance tags the nodes it
     attracted in this step. It is reached when each lineage so tagged is within
-    the kill distance, or is no relative neighbour any more (section 4.3).
+    the kill distance, or is no relative neighbour any more (section 4.3), or is
+    beyond the influence radius, from where no pull brings it nearer.
 
     Parameters
     ----------
@@ -46,8 +48,8 @@ def tag_and_wait(
         Of the nodes.
     step : int
         The step that is being made.
-    kill : float
-        Squared kill distance, in material units.
+    kill, influence : float
+        Squared kill distance and influence radius, in material units.
 
     Returns
     -------
@@ -73,7 +75,8 @@ def tag_and_wait(
             n_tagged += 1
         is_waiting = False
         for k in range(n_members):
-            if perceived.distances[s, k] >= kill and is_tagged(
+            distance = perceived.distances[s, k]
+            if kill <= distance <= influence and is_tagged(
                 tags, s, perceived.members[s, k], parents, births
             ):
                 is_waiting = True

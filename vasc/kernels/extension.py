@@ -122,7 +122,7 @@ def children(
     The direction is the normalized sum of the pulls (equation 3.1), then biased
     (equation 3.3). Where the pulls cancel so far that the child might come nearer
     to no source (mean cosine at most D / (2 d), d the distance of the nearest),
-    the stall rule takes the direction of the nearest source instead.
+    the stall rule takes the direction of the nearest source instead, without a bias.
 
     Parameters
     ----------
@@ -170,7 +170,7 @@ def children(
         if norm == 0.0:
             continue
         x, y = x / norm, y / norm
-        if bias_x != 0.0 or bias_y != 0.0:
+        if not is_stalled[n_children] and (bias_x != 0.0 or bias_y != 0.0):
             biased_x, biased_y = x + bias_x, y + bias_y
             norm = np.sqrt(biased_x * biased_x + biased_y * biased_y)
             if norm > 0.0:

@@ -63,10 +63,15 @@ class TaggedArrival(Arrival):
     ----------
     kill_distance, segment_length : float
         In D.
+    influence_radius : float or None
+        Veins farther from a source are not awaited; None: no limit, in D.
     """
 
-    def __init__(self, kill_distance: float, segment_length: float) -> None:
+    def __init__(
+        self, kill_distance: float, segment_length: float, influence_radius: float | None
+    ) -> None:
         super().__init__(kill_distance)
+        self.influence_radius = np.inf if influence_radius is None else influence_radius
         self.join_length = 2.0 * segment_length
 
     def reach(self, veins: Vasculature, moment: Moment) -> int:
@@ -80,6 +85,7 @@ class TaggedArrival(Arrival):
             veins.nodes.arrays["birth"],
             moment.step,
             limit,
+            (self.influence_radius / moment.scale) ** 2,
         )
         self._note_tags(veins, moment.step, tagged)
         is_joined = np.array(

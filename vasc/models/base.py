@@ -2,12 +2,13 @@
 
 from abc import ABC, abstractmethod
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Union
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
+from vasc import kernels
 from vasc.domain import BladeParameters
-from vasc.growth import GROWTHS, IsogonicParameters, LinearGrowthParameters, MarginalParameters, NoGrowthParameters
+from vasc.growth import IsogonicParameters, LinearGrowthParameters, MarginalParameters, NoGrowthParameters
 from vasc.models.arrival import ArrivalParameters
 from vasc.models.extension import ExtensionParameters
 from vasc.models.refinement import NoRefinementParameters, SubdivisionParameters
@@ -37,11 +38,9 @@ class Model(ABC):
         return state.is_finished
 
 
-if TYPE_CHECKING:
-    AnyGrowth = NoGrowthParameters | MarginalParameters | IsogonicParameters
-else:
-    # ours, and those that installed packages offer as entry points
-    AnyGrowth = Annotated[Union[tuple(GROWTHS.values())], Field(discriminator="kind")]  # noqa: UP007
+AnyGrowth = Annotated[
+    NoGrowthParameters | MarginalParameters | IsogonicParameters, Field(discriminator="kind")
+]
 AnyPlacement = Annotated[DartParameters | GivenParameters, Field(discriminator="kind")]
 AnyRefinement = Annotated[
     NoRefinementParameters | SubdivisionParameters, Field(discriminator="kind")
@@ -72,7 +71,11 @@ class RecordParameters(Parameters):
     @property
     def least_change(self) -> int:
         """The least change that is recorded, see :mod:`vasc.kernels.perceived`."""
-        return {"nodes": 1, "veins": 2, "none": 3}[self.perceived]
+        return {
+            "nodes": kernels.perceived.SAME_VEINS,
+            "veins": kernels.perceived.OTHER_VEINS,
+            "none": kernels.perceived.NEVER,
+        }[self.perceived]
 
 
 class UnitParameters(Parameters):
@@ -142,6 +145,19 @@ class Venation(Parameters):
             raise ValueError(
                 "placement.reading is 'largest_blade'; it needs growth.kind = 'marginal',"
                 " where places in the blade stay (section 4.2.3)"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _check_until(self) -> "Venation":
+        """Refuse a last step of darts where they are thrown once."""
+        placement = self.placement
+        if not isinstance(placement, DartParameters) or placement.reading == "each_step":
+            return self
+        if placement.until is not None:
+            raise ValueError(
+                f"placement.until is {placement.until}; it is not allowed with"
+                " placement.reading = 'largest_blade', where darts are thrown once"
             )
         return self
 

@@ -27,6 +27,8 @@ class ClosedVenation(Venation):
         kill_distance = self.arrival.kill_distance
         return Colonization(
             perception=self.perception.perception(kill_distance),
-            arrival=TaggedArrival(kill_distance, self.extension.segment_length),
+            arrival=TaggedArrival(
+                kill_distance, self.extension.segment_length, self.perception.influence_radius
+            ),
             **self.parts(folder),
         )

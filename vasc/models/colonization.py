@@ -38,8 +38,8 @@ class Colonization(Model):
     perception: Perception
     extension: Extension
     arrival: Arrival
-    last_step: int | None = None
-    least_change: int = 2
+    last_step: int | None
+    least_change: int
 
     def advance(self, state: State, streams: Streams) -> State:
         """Advance one step: grow, place, perceive, extend, reach."""

@@ -10,6 +10,7 @@ from vasc.parameters import Parameters, quantity
 from vasc.placement.base import Moment, Placement
 from vasc.placement.largest_blade import LargestBladePlacement
 from vasc.sources import Cause
+from vasc.streams import poisson_count
 from vasc.vasculature import Vasculature
 
 if TYPE_CHECKING:
@@ -21,23 +22,6 @@ EPOCH_RATIO = 1.19
 DARTS_PER_CELL = 3.0
 """A blade that does not grow is saturated when that many darts on every open cell,
 in expectation, have found no room."""
-
-
-def poisson_count(rng: np.random.Generator, mean: float) -> int:
-    """Draw a Poisson number by counting exponential waiting times.
-
-    Unlike ``rng.poisson`` it calls no exponential function of the processor's
-    library, so that its result does not depend on the machine.
-    """
-    count = 0
-    elapsed = 0.0
-    while True:
-        waits = rng.standard_exponential(int(mean + 4.0 * np.sqrt(mean)) + 4)
-        for total in (elapsed + np.cumsum(waits)).tolist():
-            if total > mean:
-                return count
-            elapsed = total
-            count += 1
 
 
 class DartPlacement(Placement):
@@ -114,6 +98,8 @@ class DartPlacement(Placement):
         """Tell whether no dart is thrown after a step."""
         if not self.is_until_saturated:
             return step >= self.last_step
+        if self._epoch_end > 0 and self.cells.n_uncovered[0] == 0:
+            return True
         n_sources = veins.sources.n_rows
         last_birth = int(veins.sources.arrays["birth"][n_sources - 1]) if n_sources else 0
         return step - last_birth >= self._n_quiet_steps

@@ -7,6 +7,7 @@ from vasc.arrays import Points
 from vasc.growth import Growth
 from vasc.placement.base import Moment, Placement
 from vasc.sources import Cause
+from vasc.streams import poisson_count
 from vasc.vasculature import Vasculature
 
 
@@ -42,11 +43,15 @@ class LargestBladePlacement(Placement):
         return self.source_distance
 
     def begin(self, veins: Vasculature, rng: np.random.Generator) -> None:
-        """Draw the sources of the largest blade."""
+        """Draw the sources of the largest blade.
+
+        A resumed run draws them again; those that have appeared since are refused
+        then, for their source lives or a vein has come near.
+        """
         low_x, low_y, high_x, high_y = self.growth.domain(self.growth.last_step).bounds
         sides = np.array([high_x - low_x, high_y - low_y])
         mean = self.density * float(sides[0] * sides[1]) * self.growth.last_step
-        darts = np.array([low_x, low_y]) + rng.random((int(mean), 2)) * sides
+        darts = np.array([low_x, low_y]) + rng.random((poisson_count(rng, mean), 2)) * sides
         box = (low_x, low_y, high_x, high_y)
         grid = kernels.hash_grid.hash_grid(box, self.source_distance, len(darts))
         chosen = kernels.darts.keep_apart(darts, grid, self.source_distance**2)
