@@ -1,3 +1,61 @@
-"""vasc: a simulation framework for vascular development in plants."""
+"""vasc: a simulation framework for vascular development in plants.
+
+The names of this module are the public interface; each is loaded at its first use.
+
+Examples
+--------
+>>> import vasc
+>>> leaf = vasc.load("poplar-leaf")
+>>> leaf.parameters.kind
+'closed'
+"""
+
+from importlib import import_module
+from typing import Any
 
 __version__ = "0.1.0"
+
+_HOMES = {
+    "Blade": "vasc.domain",
+    "ClosedVenation": "vasc.models",
+    "OpenVenation": "vasc.models",
+    "Streams": "vasc.streams",
+    "Timeline": "vasc.timeline",
+    "VascError": "vasc.errors",
+    "animate": "vasc.render",
+    "draw_leaf": "vasc.render",
+    "load": "vasc.config",
+    "murray_radii": "vasc.analysis.widths",
+    "resume": "vasc.experiment",
+    "run": "vasc.experiment",
+    "simulate": "vasc.simulation",
+    "statistics": "vasc.analysis",
+    "validate": "vasc.timeline",
+    "verify": "vasc.experiment",
+}
+
+__all__ = [
+    "Blade",
+    "ClosedVenation",
+    "OpenVenation",
+    "Streams",
+    "Timeline",
+    "VascError",
+    "animate",
+    "draw_leaf",
+    "load",
+    "murray_radii",
+    "resume",
+    "run",
+    "simulate",
+    "statistics",
+    "validate",
+    "verify",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name from its module."""
+    if name not in _HOMES:
+        raise AttributeError(f"module 'vasc' has no attribute {name!r}")
+    return getattr(import_module(_HOMES[name]), name)
