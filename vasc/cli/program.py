@@ -20,6 +20,7 @@ from vasc.cli import (
     verify,
 )
 from vasc.cli.failures import end_of, interruptible, without_lines_of_code
+from vasc.cli.start import rare_collections
 
 # the order of a first day with vasc
 VERBS = (configs, run, resume, show, events, lineage, stats, render, animate, verify, schema)
@@ -84,7 +85,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     own = arguments[: arguments.index("--")] if "--" in arguments else arguments
     rest = arguments[len(own) :]
     try:
-        with without_lines_of_code():
+        with rare_collections(), without_lines_of_code():
             code = app(
                 [word for word in own if word != DEBUG] + rest,
                 prog_name="vasc",

@@ -14,6 +14,7 @@ def resume(
     from vasc import experiment
     from vasc.cli.interrupts import Interrupts
     from vasc.cli.progress import ProgressLine
+    from vasc.cli.start import load_numba
     from vasc.cli.summary import end_if_interrupted, print_summary
     from vasc.timeline import Timeline
 
@@ -23,6 +24,7 @@ def resume(
         typer.echo(f"{path} is complete: its {last_step:,} steps are all there are")
         return
     with Interrupts() as interrupts, ProgressLine(quiet=quiet) as progress:
+        load_numba()
         summary = experiment.resume(
             path, steps=steps, observers=[progress], should_stop=interrupts.should_stop
         )

@@ -51,6 +51,7 @@ def run(
     """Run an experiment: record every step, and draw the last one."""
     from vasc.cli.interrupts import Interrupts
     from vasc.cli.progress import ProgressLine
+    from vasc.cli.start import load_numba
     from vasc.cli.summary import end_if_interrupted, print_summary
     from vasc.config import load, parse_override
     from vasc.config.regime import regime
@@ -62,8 +63,7 @@ def run(
     experiment = load(config, [*overrides, *([] if seed is None else [(("seed",), seed)])])
     output = Path(f"{experiment.name}.h5") if output is None else output
     check_output(output, force=force)
-    if not no_figure:
-        figure = output.with_suffix(".png") if figure is None else figure
+    figure = None if no_figure else figure or output.with_suffix(".png")
     check_outputs(config, output, figure, force=force)
     expected = regime(experiment.parameters)
     if not (quiet or as_json):
@@ -72,6 +72,7 @@ def run(
     from vasc import experiment as experiments
 
     with Interrupts() as interrupts, ProgressLine(quiet=quiet) as progress:
+        load_numba()
         summary = experiments.run(
             experiment,
             output,

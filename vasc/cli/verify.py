@@ -18,8 +18,10 @@ def verify(path: RunFile, quiet: Quiet = False, as_json: AsJson = False) -> None
     from vasc import experiment
     from vasc.cli.printing import print_json
     from vasc.cli.progress import ProgressLine
+    from vasc.cli.start import load_numba
 
     with ProgressLine(quiet=quiet) as progress:
+        load_numba()
         differences = experiment.verify(path, observers=[progress])
     if as_json:
         found = [difference._asdict() for difference in differences]
