@@ -225,10 +225,11 @@ def test_closing_decides_what_is_complete(tmp_path):
 
 def test_only_the_two_marks_are_ever_rewritten(tmp_path, monkeypatch):
     """Every write to a growing column starts where its committed rows end."""
-    written = {}
+    written, kept = {}, []
     real = writer.GrowingColumn.write
 
     def watched(self, start, rows):
+        kept.append(self)  # so that no other column gets its identity
         written.setdefault(id(self), []).append((start, len(rows), self.n_rows))
         real(self, start, rows)
 
