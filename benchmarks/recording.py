@@ -1,6 +1,13 @@
-"""What it costs to record every step: CPU seconds with and without a recorder, in turn."""
+"""What it costs to record every step: CPU seconds with and without a recorder, in turn.
 
-import sys
+The plain run keeps no record of what sources perceive; recorded ones are made
+with each value of ``record.perceived``. A run that is recorded also loads its
+config, places the file and sums up what came of it.
+"""
+
+import argparse
+import json
+import os
 import tempfile
 import time
 from pathlib import Path
@@ -10,27 +17,77 @@ from vasc.experiment import run
 from vasc.simulation import simulate
 from vasc.streams import Streams
 
-REPEATS = 3
+CASES = ("poplar-leaf", "param-kill-distance-e")
+PERCEIVED = ("none", "veins", "nodes")
+
+
+def configured(name, perceived):
+    """A bundled config that records some of what sources perceive."""
+    return load(name, [(("record", "perceived"), perceived)])
+
+
+def plain_seconds(experiment):
+    """CPU seconds of a run that nobody watches."""
+    started = time.process_time()
+    parameters = experiment.parameters
+    for _ in simulate(parameters.model(experiment.folder), Streams(parameters.seed)):
+        pass
+    return time.process_time() - started
+
+
+def recorded_seconds(experiment, output):
+    """CPU seconds of a run with a recorder."""
+    started = time.process_time()
+    summary = run(experiment, output, force=True)
+    return time.process_time() - started, summary
+
+
+def measure(name, repeats):
+    """Best of some runs of each sort, all in turn; the first of each loads kernels."""
+    plain, recorded = [], {perceived: [] for perceived in PERCEIVED}
+    sizes = {}
+    with tempfile.TemporaryDirectory() as folder:
+        output = Path(folder) / "run.h5"
+        for _ in range(repeats + 1):
+            plain.append(plain_seconds(configured(name, "none")))
+            for perceived in PERCEIVED:
+                seconds, summary = recorded_seconds(configured(name, perceived), output)
+                recorded[perceived].append(seconds)
+                sizes[perceived] = output.stat().st_size
+    without = min(plain[1:])
+    rows = []
+    for perceived in PERCEIVED:
+        seconds = min(recorded[perceived][1:])
+        rows.append(
+            {
+                "case": name,
+                "perceived": perceived,
+                "steps": summary.steps,
+                "nodes": summary.nodes,
+                "plain_s": round(without, 3),
+                "recorded_s": round(seconds, 3),
+                "percent": round(100.0 * (seconds - without) / without, 1),
+                "us_per_step": round(1e6 * (seconds - without) / summary.steps),
+                "file_bytes_per_node": round(sizes[perceived] / summary.nodes),
+            }
+        )
+    return rows
 
 
 def main():
-    """Print the cost for a bundled config (poplar-leaf by default)."""
-    name = sys.argv[1] if len(sys.argv) > 1 else "poplar-leaf"
-    found = load(name)
-    plain, recorded = [], []
-    with tempfile.TemporaryDirectory() as folder:
-        for k in range(REPEATS + 1):
-            started = time.process_time()
-            for _ in simulate(found.parameters.model(), Streams(found.parameters.seed)):
-                pass
-            plain.append(time.process_time() - started)
-            started = time.process_time()
-            run(found, Path(folder) / f"{k}.h5")
-            recorded.append(time.process_time() - started)
-    # the first of each loads compiled kernels
-    without, with_record = min(plain[1:]), min(recorded[1:])
-    share = 100.0 * (with_record - without) / without
-    print(f"{name}: {without:.2f} s without, {with_record:.2f} s with a recorder: {share:.1f} %")
+    """Print a row a case and a value of ``record.perceived``."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("cases", nargs="*", help="names of bundled configs")
+    parser.add_argument("--json", action="store_true")
+    parser.add_argument("--repeats", type=int, default=3)
+    chosen = parser.parse_args()
+    rows = [row for name in chosen.cases or CASES for row in measure(name, chosen.repeats)]
+    if chosen.json:
+        print(json.dumps({"load": os.getloadavg()[0], "rows": rows}, indent=2))
+        return
+    print("| " + " | ".join(rows[0]) + " |")
+    for row in rows:
+        print("| " + " | ".join(f"{value}" for value in row.values()) + " |")
 
 
 if __name__ == "__main__":
