@@ -1,7 +1,9 @@
 """What it costs to record every step: CPU seconds with and without a recorder, in turn.
 
 The plain run keeps no record of what sources perceive; recorded ones are made
-with each value of ``record.perceived``. What a recorded run of a single step costs
+with each value of ``record.perceived``. As the difference of two runs is as small as
+what other work on the machine makes of it, the time within the recorder is measured,
+too (``recorder_percent``, of the rest of the same run). What a recorded run of a single step costs
 more than a plain one is told apart: making and closing the file, and the summary.
 """
 
@@ -10,12 +12,15 @@ import json
 import os
 import tempfile
 import time
+from contextlib import contextmanager
 from pathlib import Path
+from unittest.mock import patch
 
 from vasc.config import load
 from vasc.experiment import run
 from vasc.simulation import simulate
 from vasc.streams import Streams
+from vasc.timeline import Recorder
 
 CASES = ("poplar-leaf", "param-kill-distance-e")
 PERCEIVED = ("none", "veins", "nodes")
@@ -43,10 +48,39 @@ def recorded_seconds(experiment, output, steps=None):
     return time.process_time() - started, summary
 
 
+@contextmanager
+def watched(spent):
+    """Add up the CPU seconds that recorders spend in a run, in ``spent[0]``."""
+
+    def timed(method):
+        def called(*arguments, **named):
+            started = time.process_time()
+            try:
+                return method(*arguments, **named)
+            finally:
+                spent[0] += time.process_time() - started
+
+        return called
+
+    with (
+        patch.object(Recorder, "observe", timed(Recorder.observe)),
+        patch.object(Recorder, "close", timed(Recorder.close)),
+    ):
+        yield
+
+
+def recorder_percent(experiment, output):
+    """Share of the recorder in a run, in percent of the rest."""
+    spent = [0.0]
+    with watched(spent):
+        seconds, _ = recorded_seconds(experiment, output)
+    return 100.0 * spent[0] / (seconds - spent[0])
+
+
 def measure(name, repeats):
     """Best of some runs of each sort, all in turn; the first of each loads kernels."""
     plain, recorded = [], {perceived: [] for perceived in PERCEIVED}
-    fixed, sizes = [], {}
+    fixed, sizes, shares = [], {}, {}
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder) / "run.h5"
         for _ in range(repeats + 1):
@@ -58,6 +92,8 @@ def measure(name, repeats):
                 seconds, summary = recorded_seconds(configured(name, perceived), output)
                 recorded[perceived].append(seconds)
                 sizes[perceived] = output.stat().st_size
+        for perceived in PERCEIVED:
+            shares[perceived] = recorder_percent(configured(name, perceived), output)
     without, begin = min(plain[1:]), min(fixed[1:])
     rows = []
     for perceived in PERCEIVED:
@@ -71,6 +107,7 @@ def measure(name, repeats):
                 "plain_s": round(without, 3),
                 "recorded_s": round(seconds, 3),
                 "percent": round(100.0 * (seconds - without) / without, 1),
+                "recorder_percent": round(shares[perceived], 1),
                 "file_and_summary_ms": round(1e3 * begin, 1),
                 "us_per_step": round(1e6 * (seconds - without - begin) / summary.steps),
                 "file_bytes_per_node": round(sizes[perceived] / summary.nodes),
