@@ -7,6 +7,7 @@ from reference import colonization as slow
 from vasc.errors import VascError
 from vasc.events import EventKind, StopReason
 from vasc.models import ClosedVenation, OpenVenation
+from vasc.network import SegmentKind
 from vasc.simulation import simulate
 from vasc.streams import Streams
 
@@ -42,23 +43,39 @@ def run(tables):
     return last
 
 
+def events(state, kind):
+    """Step, subject and object of all events of a kind."""
+    rows = state.rows("events", "kind") == kind
+    columns = [state.rows("events", name)[rows].tolist() for name in ("step", "subject", "object")]
+    return list(zip(*columns, strict=True))
+
+
 def assert_same(state, leaf):
-    """All that a state records equals the slow leaf."""
-    nodes = state.rows("nodes", "material")
+    """All that a state records equals the slow leaf, positions to the last bit."""
+    assert state.step == leaf.step
     assert state.rows("nodes", "parent").tolist() == leaf.parents
     assert state.rows("nodes", "birth").tolist() == leaf.births
-    np.testing.assert_allclose(nodes, np.array(leaf.nodes), rtol=0, atol=1e-12)
-    kinds = state.rows("events", "kind")
-    removed = kinds == EventKind.SOURCE_REMOVED
-    steps, subjects = (
-        state.rows("events", "step")[removed],
-        state.rows("events", "subject")[removed],
-    )
-    assert list(zip(steps.tolist(), subjects.tolist(), strict=True)) == leaf.removed
-    is_join = state.rows("segments", "kind") == 1
+    assert state.rows("nodes", "source").tolist() == leaf.causes
+    np.testing.assert_array_equal(state.rows("nodes", "material"), np.array(leaf.nodes))
+    assert state.rows("segments", "nodes").tolist() == [list(pair) for pair in leaf.segments]
+    is_join = state.rows("segments", "kind") == SegmentKind.JOIN
     joins = [tuple(pair) for pair in state.rows("segments", "nodes")[is_join].tolist()]
     assert joins == leaf.joins
-    assert int((kinds == EventKind.STALL_RESOLVED).sum()) == leaf.n_stalled
+    assert events(state, EventKind.SOURCE_REMOVED) == leaf.removed
+    assert events(state, EventKind.SOURCE_TAGGED) == leaf.tagged
+    for kind, expected in (
+        (EventKind.VEIN_INITIATED, leaf.initiated),
+        (EventKind.VEIN_ENDED_BLINDLY, leaf.ended),
+        (EventKind.LOOP_CLOSED, leaf.loops),
+        (EventKind.SEGMENT_REFINED, leaf.refined),
+    ):
+        assert [tuple(row[1:]) for row in events(state, kind)] == expected
+    assert len(events(state, EventKind.STALL_RESOLVED)) == leaf.n_stalled
+    assert sorted(state.live.tolist()) == sorted(leaf.sources)
+    reasons = [StopReason(reason).name for _, reason, _ in events(state, EventKind.RUN_FINISHED)]
+    assert [reason for reason in reasons if reason != "STEP_LIMIT"] == [leaf.reason] * bool(
+        leaf.reason
+    )
 
 
 @pytest.mark.parametrize("kind", ["open", "closed"])

@@ -1,54 +1,18 @@
 """Space colonization in plain Python: every distance measured anew in every step.
 
-Written from the rules, not from the kernels: a node v is a relative neighbour of a
-source s when no other node u has (|u - s|, id of u) < (|v - s|, id of v) and is
-nearer to v than s is; of nodes at one place only the first counts.
+One step, in material coordinates (lengths in D are divided by the scale of the step):
+halve stretched segments; let the given sources of the step appear; ask which nodes each
+source attracts; extend the nodes that are pulled; tag, join and remove. Nothing is kept
+between steps but what a record holds.
 """
 
 from dataclasses import dataclass, field
 from math import sqrt
 
+from reference.nearest import nearest
+from reference.relative_neighbors import excludes, relative_neighbors, square
 
-def square(a, b):
-    """Squared distance, by the one expression that makes ties agree."""
-    dx, dy = a[0] - b[0], a[1] - b[1]
-    return dx * dx + dy * dy
-
-
-def excludes(u, v, s, nodes):
-    """Whether node u keeps node v out of the neighbourhood of s."""
-    to_u, to_v = square(nodes[u], s), square(nodes[v], s)
-    between = square(nodes[u], nodes[v])
-    return (to_u, u) < (to_v, v) and (between < to_v or between == 0.0)
-
-
-def relative_neighbors(s, nodes):
-    """All relative neighbours of s, nearest first."""
-    ids = range(len(nodes))
-    found = [v for v in ids if not any(excludes(u, v, s, nodes) for u in ids if u != v)]
-    return sorted(found, key=lambda v: (square(nodes[v], s), v))
-
-
-def nearest(s, nodes):
-    """The nearest node of s, of equals the oldest."""
-    if not nodes:
-        return []
-    return [min(range(len(nodes)), key=lambda v: (square(nodes[v], s), v))]
-
-
-@dataclass
-class Leaf:
-    """Veins and sources of one run, in material coordinates."""
-
-    nodes: list
-    parents: list
-    births: list
-    sources: dict = field(default_factory=dict)
-    tags: dict = field(default_factory=dict)
-    joins: list = field(default_factory=list)
-    removed: list = field(default_factory=list)
-    n_placed: int = 0
-    n_stalled: int = 0
+__all__ = ["Leaf", "Rules", "excludes", "grow", "nearest", "relative_neighbors", "square"]
 
 
 @dataclass
@@ -61,116 +25,223 @@ class Rules:
     influence: float = float("inf")
     bias: tuple = (0.0, 0.0)
     stall_rule: bool = True
+    longest: float = float("inf")
+    last_growth: int = 0
     scale: object = staticmethod(lambda step: 1.0)
+    neighbors: object = staticmethod(relative_neighbors)
 
-    def perceive(self, s, nodes):
-        """The nodes a source attracts."""
-        return relative_neighbors(s, nodes) if self.is_closed else nearest(s, nodes)
+    def perceive(self, leaf):
+        """The nodes that each live source attracts."""
+        rule = self.neighbors if self.is_closed else nearest
+        return {s: rule(place, leaf.nodes) for s, place in sorted(leaf.sources.items())}
 
 
-def is_tagged(leaf, s, v):
-    """Whether v is of a lineage that source s waits for."""
+@dataclass
+class Leaf:
+    """Veins and sources of one run, in material coordinates."""
+
+    nodes: list
+    parents: list
+    births: list
+    causes: list
+    segments: list = field(default_factory=list)
+    refined: list = field(default_factory=list)
+    sources: dict = field(default_factory=dict)
+    tags: dict = field(default_factory=dict)
+    tagged: list = field(default_factory=list)
+    joins: list = field(default_factory=list)
+    loops: list = field(default_factory=list)
+    removed: list = field(default_factory=list)
+    ended: list = field(default_factory=list)
+    initiated: list = field(default_factory=list)
+    n_placed: int = 0
+    n_stalled: int = 0
+    reason: str = ""
+    step: int = 0
+
+    def add_node(self, place, parent, cause):
+        """Append a node of this step."""
+        self.nodes.append(place)
+        self.parents.append(parent)
+        self.births.append(self.step)
+        self.causes.append(cause)
+        return len(self.nodes) - 1
+
+    def has_child(self, node):
+        """Whether a vein runs on from a node: one extends it, or it halves a segment."""
+        halves = [middle for _, middle in self.refined]
+        return node in halves or any(
+            p == node for child, p in enumerate(self.parents) if child not in halves
+        )
+
+    def are_linked(self, a, b):
+        """Whether one can walk from a to b along segments, by looking everywhere."""
+        met, edge = {a}, [a]
+        while edge:
+            node = edge.pop()
+            for pair in self.segments:
+                if node in pair:
+                    edge += [end for end in pair if end not in met]
+                    met.update(pair)
+        return b in met
+
+
+def halve(leaf, rules, scale):
+    """Put a node into the middle of every segment that is too long, until none is."""
+    while True:
+        replaced = {segment for segment, _ in leaf.refined}
+        long = [
+            segment
+            for segment, (a, b) in enumerate(leaf.segments)
+            if segment not in replaced
+            and sqrt(square(leaf.nodes[a], leaf.nodes[b])) * scale > rules.longest
+        ]
+        if not long:
+            return
+        for segment in long:
+            a, b = leaf.segments[segment]
+            (ax, ay), (bx, by) = leaf.nodes[a], leaf.nodes[b]
+            leaf.refined.append((segment, leaf.add_node(((ax + bx) / 2, (ay + by) / 2), a, -1)))
+        for segment, middle in leaf.refined[-len(long) :]:
+            a, b = leaf.segments[segment]
+            leaf.segments += [(a, middle), (middle, b)]
+
+
+def is_awaited(leaf, s, v):
+    """Whether v is a node that source s tagged, or has grown from one since."""
     step, tagged = leaf.tags[s]
-    while v >= 0 and leaf.births[v] >= step:
+    while leaf.births[v] >= step:
         v = leaf.parents[v]
     return v in tagged
 
 
-def pulled(leaf, rules, s, attracted, scale):
-    """The nodes that a source pulls."""
-    kill, influence = (rules.kill / scale) ** 2, (rules.influence / scale) ** 2
-    place = leaf.sources[s]
-    near = [v for v in attracted if kill <= square(leaf.nodes[v], place) <= influence]
-    return [v for v in near if s not in leaf.tags or is_tagged(leaf, s, v)]
+def pullers_of_nodes(leaf, rules, attracted, scale):
+    """Which sources pull each node, in ascending id."""
+    pullers = {}
+    for s, members in sorted(attracted.items()):
+        for v in members:
+            distance = sqrt(square(leaf.nodes[v], leaf.sources[s])) * scale
+            if not rules.kill <= distance <= rules.influence:
+                continue
+            if s not in leaf.tags or is_awaited(leaf, s, v):
+                pullers.setdefault(v, []).append(s)
+    return pullers
 
 
-def child_of(v, pullers, leaf, rules, scale):
-    """Where the child of a node goes, or None."""
+def direction(leaf, rules, v, pullers, closest, scale):
+    """Where a node grows: a unit vector, or None where the pulls cancel."""
     x, y = leaf.nodes[v]
     total_x = total_y = 0.0
     for s in pullers:
         sx, sy = leaf.sources[s]
-        distance = sqrt(square((x, y), (sx, sy)))
+        distance = sqrt(square(leaf.nodes[v], (sx, sy)))
         total_x += (sx - x) / distance
         total_y += (sy - y) / distance
-    closest = min(pullers, key=lambda s: (square(leaf.nodes[v], leaf.sources[s]), s))
-    dmin = sqrt(square(leaf.nodes[v], leaf.sources[closest]))
-    length = rules.length / scale
     norm = sqrt(total_x * total_x + total_y * total_y)
-    if rules.stall_rule and len(pullers) > 1 and 2.0 * dmin * norm <= length * len(pullers):
+    sx, sy = leaf.sources[closest]
+    least = sqrt(square((x, y), (sx, sy)))
+    if rules.stall_rule and norm / len(pullers) <= rules.length / (2.0 * least * scale):
         leaf.n_stalled += 1
-        dx, dy = leaf.sources[closest][0] - x, leaf.sources[closest][1] - y
-        return (x + length * (dx / dmin), y + length * (dy / dmin))
+        return (sx - x) / least, (sy - y) / least
     if norm == 0.0:
         return None
-    nx, ny = total_x / norm, total_y / norm
-    if rules.bias != (0.0, 0.0):
-        bx, by = nx + rules.bias[0], ny + rules.bias[1]
-        norm = sqrt(bx * bx + by * by)
-        if norm > 0.0:
-            nx, ny = bx / norm, by / norm
-    return (x + length * nx, y + length * ny)
+    ux, uy = total_x / norm, total_y / norm
+    if rules.bias == (0.0, 0.0):
+        return ux, uy
+    bx, by = ux + rules.bias[0], uy + rules.bias[1]
+    norm = sqrt(bx * bx + by * by)
+    return (bx / norm, by / norm) if norm > 0.0 else (ux, uy)
 
 
-def extend(leaf, rules, attracted, step, scale):
-    """One new node for every pulled node, oldest parent first."""
-    pullers = {}
-    for s in sorted(leaf.sources):
-        for v in pulled(leaf, rules, s, attracted[s], scale):
-            pullers.setdefault(v, []).append(s)
-    children = [(v, child_of(v, pullers[v], leaf, rules, scale)) for v in sorted(pullers)]
-    for v, place in children:
-        if place is not None:
-            leaf.nodes.append(place)
-            leaf.parents.append(v)
-            leaf.births.append(step)
+def extend(leaf, rules, attracted, scale):
+    """One new node for every pulled node, oldest parent first; gives their number."""
+    pullers = pullers_of_nodes(leaf, rules, attracted, scale)
+    length = rules.length / scale
+    children = []
+    for v in sorted(pullers):
+        closest = min(pullers[v], key=lambda s: (square(leaf.nodes[v], leaf.sources[s]), s))
+        way = direction(leaf, rules, v, pullers[v], closest, scale)
+        if way is not None:
+            x, y = leaf.nodes[v]
+            children.append(((x + length * way[0], y + length * way[1]), v, closest))
+    is_branch = [leaf.has_child(v) for _, v, _ in children]
+    for child, branches in zip(children, is_branch, strict=True):
+        node = leaf.add_node(*child)
+        leaf.segments.append((child[1], node))
+        if branches:
+            leaf.initiated.append((node, child[1]))
+    return len(children)
 
 
-def arrive(leaf, rules, before, step, scale):
-    """Tag, wait, join and remove."""
-    kill = (rules.kill / scale) ** 2
-    for s in sorted(leaf.sources):
-        place = leaf.sources[s]
-        now = rules.perceive(place, leaf.nodes)
-        near = [v for v in now if square(leaf.nodes[v], place) < kill]
-        if not rules.is_closed:
-            if near:
-                leaf.removed.append((step, s))
-                del leaf.sources[s]
-            continue
+def arrive(leaf, rules, before, after, scale):
+    """Tag, wait, join and remove; gives the number of sources to which that happened."""
+    n_changes = 0
+    for s, place in sorted(leaf.sources.items()):
+        gaps = {v: sqrt(square(leaf.nodes[v], place)) * scale for v in after[s]}
+        arrived = [v for v in after[s] if gaps[v] < rules.kill]
         if s not in leaf.tags:
-            if not near:
+            if not arrived:
                 continue
-            leaf.tags[s] = (step, set(before[s]))
-        limit = (rules.influence / scale) ** 2
-        far = [v for v in now if kill <= square(leaf.nodes[v], place) <= limit]
-        if any(is_tagged(leaf, s, v) for v in far):
+            if rules.is_closed:
+                leaf.tags[s] = (leaf.step, before[s])
+                leaf.tagged += [(leaf.step, s, v) for v in before[s]]
+                n_changes += 1
+        coming = [v for v in after[s] if rules.kill <= gaps[v] <= rules.influence]
+        if rules.is_closed and any(is_awaited(leaf, s, v) for v in coming):
             continue
-        for other in near[1:]:
-            join(leaf, rules, near[0], other, scale)
-        leaf.removed.append((step, s))
-        del leaf.sources[s]
+        joined = [join(leaf, rules, s, arrived[0], v, scale) for v in arrived[1:]]
+        if not any(joined) and not leaf.has_child(after[s][0]):
+            leaf.ended.append((after[s][0], s))
+        leaf.removed.append((leaf.step, s, after[s][0]))
+        n_changes += 1
+    for _, s, _ in leaf.removed:
+        leaf.sources.pop(s, None)
+    return n_changes
 
 
-def join(leaf, rules, a, b, scale):
+def join(leaf, rules, s, a, b, scale):
     """Connect two veins that met, unless they are far apart or connected already."""
     pair = (min(a, b), max(a, b))
     if leaf.parents[pair[1]] == pair[0] or pair in leaf.joins:
-        return
-    if square(leaf.nodes[a], leaf.nodes[b]) <= (2.0 * rules.length / scale) ** 2:
-        leaf.joins.append(pair)
+        return False
+    if sqrt(square(leaf.nodes[a], leaf.nodes[b])) * scale > 2.0 * rules.length:
+        return False
+    if leaf.are_linked(a, b):
+        leaf.loops.append((len(leaf.segments), s))
+    leaf.joins.append(pair)
+    leaf.segments.append(pair)
+    return True
+
+
+def reason_to_stop(leaf, rules, n_extended, n_changes, before, after):
+    """Why nothing more can happen, once the blade and its sources are complete."""
+    if not leaf.sources:
+        return "NO_SOURCES"
+    if n_changes:
+        return ""
+    if n_extended == 0:
+        return "NOTHING_PULLED"
+    # what pulls what is as it was: the same nodes would be added again
+    return "LIVELOCK" if all(before[s] == after[s] for s in leaf.sources) else ""
 
 
 def grow(seeds, given, rules, n_steps):
-    """Run for a number of steps; ``given`` is a list of (step, place) in material units."""
-    leaf = Leaf(list(seeds), [-1] * len(seeds), [0] * len(seeds))
-    for step in range(1, n_steps + 1):
-        scale = rules.scale(step)
+    """Run until it stops, at most ``n_steps``; ``given``: (step, place) in material units."""
+    n_seeds = len(seeds)
+    leaf = Leaf(list(seeds), [-1] * n_seeds, [0] * n_seeds, [-1] * n_seeds)
+    last = max([rules.last_growth, *(birth for birth, _ in given)])
+    while leaf.step < n_steps and not leaf.reason:
+        leaf.step += 1
+        scale = rules.scale(leaf.step)
+        halve(leaf, rules, scale)
         for birth, place in given:
-            if birth == step:
+            if birth == leaf.step:
                 leaf.sources[leaf.n_placed] = place
                 leaf.n_placed += 1
-        attracted = {s: rules.perceive(p, leaf.nodes) for s, p in leaf.sources.items()}
-        extend(leaf, rules, attracted, step, scale)
-        arrive(leaf, rules, attracted, step, scale)
+        before = rules.perceive(leaf)
+        n_extended = extend(leaf, rules, before, scale)
+        after = rules.perceive(leaf)
+        n_changes = arrive(leaf, rules, before, after, scale)
+        if leaf.step >= last:
+            leaf.reason = reason_to_stop(leaf, rules, n_extended, n_changes, before, after)
     return leaf
