@@ -11,17 +11,23 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 
 SYNTHETIC = """
-import mmap, struct, sys
+import mmap, signal, struct, sys
 from pathlib import Path
 from timeline import synthetic
 from vasc.timeline import writer
 
 path, watched, verb = Path(sys.argv[1]), sys.argv[2], sys.argv[3]
 writer.BATCH_FRAMES = {batch}
+# Python drops a KeyboardInterrupt that comes up inside a weak reference's callback, as
+# h5py has many: the signal is noted, as the program does, and raised between two steps.
+signals = []
+signal.signal(signal.SIGINT, lambda number, frame: signals.append(number))
 with open(watched, "r+b") as file:
     shared = mmap.mmap(file.fileno(), 8)
     def watch(step):
         struct.pack_into("q", shared, 0, step)
+        if signals:
+            raise KeyboardInterrupt
     getattr(synthetic, verb)(path, {last_step}, watch=watch)
 """
 
