@@ -24,5 +24,7 @@ def relative_neighbors(s, nodes):
     """All relative neighbours of s, nearest first."""
     order = sorted(range(len(nodes)), key=lambda v: (square(nodes[v], s), v))
     return [
-        v for place, v in enumerate(order) if not any(excludes(u, v, s, nodes) for u in order[:place])
+        v
+        for place, v in enumerate(order)
+        if not any(excludes(u, v, s, nodes) for u in order[:place])
     ]
