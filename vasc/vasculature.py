@@ -131,8 +131,10 @@ class Vasculature:
         """
         nodes, events = self.nodes, self.tables["events"]
         parents = nodes.view("parent")
-        self.has_child[parents[parents >= 0]] = True
-        self.has_child[: nodes.n_rows][nodes.view("origin") == Origin.REFINEMENT] = True
+        is_halving = nodes.view("origin") == Origin.REFINEMENT
+        # a node that halves a join extends no vein: its parent may be a tip still
+        self.has_child[parents[(parents >= 0) & ~is_halving]] = True
+        self.has_child[: nodes.n_rows][is_halving] = True
         self.trees[: nodes.n_rows] = _roots(parents)
         kinds, subjects = events.view("kind"), events.view("subject")
         self.refined[subjects[kinds == EventKind.SEGMENT_REFINED]] = True
