@@ -2,20 +2,10 @@
 
 import numpy as np
 import pytest
-from reference import colonization as slow
-from scipy.spatial import Delaunay
+from reference.relative_neighbors import relative_neighbors
+from reference.urquhart import urquhart
 
 from vasc import kernels
-
-
-def urquhart(place, nodes):
-    """Delaunay neighbours of a source among nodes and itself, tested against each other."""
-    points = np.array([*nodes, place])
-    pointers, neighbors = Delaunay(points).vertex_neighbor_vertices
-    s = len(nodes)
-    ids = neighbors[pointers[s] : pointers[s + 1]].tolist()
-    kept = [v for v in ids if not any(slow.excludes(u, v, place, nodes) for u in ids if u != v)]
-    return sorted(kept, key=lambda v: (slow.square(nodes[v], place), v))
 
 
 def perceived_by_kernel(nodes, sources, first):
@@ -49,7 +39,7 @@ def test_the_approximation_is_seldom_wrong_and_never_too_small():
     nodes = [tuple(p) for p in rng.normal(size=(200, 2)).tolist()]
     sources = [tuple(p) for p in rng.normal(size=(200, 2)).tolist()]
     found = perceived_by_kernel(nodes, sources, 200)
-    exact = [slow.relative_neighbors(place, nodes) for place in sources]
+    exact = [relative_neighbors(place, nodes) for place in sources]
     assert all(set(e) <= set(f) for e, f in zip(exact, found, strict=True))
     n_wrong = sum(e != f for e, f in zip(exact, found, strict=True))
     assert 1 <= n_wrong <= 12
