@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from reference.relative_neighbors import relative_neighbors
-from reference.urquhart import urquhart
+from reference.urquhart import delaunay_neighbors, urquhart, voronoi_neighbors
 
 from vasc import kernels
 
@@ -31,7 +31,7 @@ def test_sets_equal_those_of_a_triangulation(first):
     nodes = [tuple(p) for p in rng.normal(size=(150, 2)).tolist()]
     sources = [tuple(p) for p in rng.normal(size=(80, 2)).tolist()]
     found = perceived_by_kernel(nodes, sources, first)
-    assert found == [urquhart(place, nodes) for place in sources]
+    assert found == [urquhart(place, nodes, delaunay_neighbors) for place in sources]
 
 
 def test_the_approximation_is_seldom_wrong_and_never_too_small():
@@ -43,3 +43,33 @@ def test_the_approximation_is_seldom_wrong_and_never_too_small():
     assert all(set(e) <= set(f) for e, f in zip(exact, found, strict=True))
     n_wrong = sum(e != f for e, f in zip(exact, found, strict=True))
     assert 1 <= n_wrong <= 12
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_bisectors_give_the_neighbors_of_a_triangulation(seed):
+    rng = np.random.default_rng(seed)
+    nodes = [tuple(p) for p in rng.normal(size=(60, 2)).tolist()]
+    for place in rng.normal(size=(20, 2)).tolist():
+        assert voronoi_neighbors(place, nodes) == sorted(delaunay_neighbors(place, nodes))
+
+
+@pytest.mark.parametrize("n_nodes", [1, 2, 3, 9])
+def test_nodes_on_a_line_are_no_exception(n_nodes):
+    nodes = [(0.0, float(y)) for y in range(n_nodes)]
+    rng = np.random.default_rng(n_nodes)
+    sources = [tuple(p) for p in rng.uniform(-4.0, 9.0, (30, 2)).tolist()]
+    sources += [(0.0, 0.25), (0.0, -1.5), (0.0, 20.0)]
+    found = perceived_by_kernel(nodes, sources, 1)
+    assert found == [urquhart(place, nodes) for place in sources]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_sets_equal_those_by_bisectors_with_nodes_twice_and_in_curved_veins(seed):
+    rng = np.random.default_rng(seed)
+    turns = rng.normal(0.0, 0.3, (3, 25)).cumsum(axis=1) + rng.uniform(0.0, 6.0, (3, 1))
+    veins = np.stack([np.cos(turns), np.sin(turns)], axis=2).cumsum(axis=1) / 4.0
+    nodes = [tuple(p) for p in veins.reshape(-1, 2).tolist()]
+    nodes += nodes[10:20]
+    sources = [tuple(p) for p in rng.normal(size=(40, 2)).tolist()]
+    found = perceived_by_kernel(nodes, sources, 5)
+    assert found == [urquhart(place, nodes) for place in sources]
