@@ -1,4 +1,4 @@
-"""Urquhart neighbours: relative neighbours tested among Delaunay neighbours only (section 4.4.2)."""
+"""Urquhart neighbours: relative neighbours tested among Delaunay neighbours (section 4.4.2)."""
 
 from math import inf
 
