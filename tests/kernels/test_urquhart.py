@@ -17,11 +17,15 @@ def perceived_by_kernel(nodes, sources, first):
     cells = kernels.urquhart.voronoi_cells(len(places))
     live = np.arange(len(places), dtype=np.int32)
     kernels.hash_grid.insert(grid, points, 0, first)
-    kernels.urquhart.perceive_new(grid, points, parents, places, live, perceived, cells, 6.0)
+    cells = kernels.urquhart.perceive_new(
+        grid, points, parents, places, live, perceived, cells, 6.0
+    )
     for start in range(first, len(points), 7):
         stop = min(start + 7, len(points))
         kernels.hash_grid.insert(grid, points, start, stop)
-        kernels.urquhart.update(points, parents, start, stop, places, live, perceived, cells)
+        cells = kernels.urquhart.update(
+            points, parents, start, stop, places, live, perceived, cells
+        )
     return [perceived.members[s, : perceived.n_members[s]].tolist() for s in live]
 
 
@@ -73,3 +77,25 @@ def test_sets_equal_those_by_bisectors_with_nodes_twice_and_in_curved_veins(seed
     sources = [tuple(p) for p in rng.normal(size=(40, 2)).tolist()]
     found = perceived_by_kernel(nodes, sources, 5)
     assert found == [urquhart(place, nodes) for place in sources]
+
+
+@pytest.mark.parametrize("first", [1, 100, 300])
+def test_a_source_beside_a_long_vein_has_hundreds_of_delaunay_neighbors(first):
+    # every node on a line is a Delaunay neighbour of a source beside it, and on an arc nearly
+    turns = np.linspace(0.2, 2.9, 150)
+    arc = np.stack([5.0 * np.cos(turns), 5.1 * np.sin(turns)], axis=1)
+    line = np.stack([np.zeros(150), np.linspace(-9.0, -1.0, 150)], axis=1)
+    nodes = [tuple(p) for p in np.concatenate([line, arc]).tolist()]
+    nodes = [nodes[row] for row in np.random.default_rng(1).permutation(300)]
+    sources = [(0.5, 0.0), (0.0, -0.5), (-4.0, -5.0), (4.0, -5.0), (0.1, -2.03)]
+    found = perceived_by_kernel(nodes, sources, first)
+    assert len(voronoi_neighbors(sources[2], nodes)) > 130
+    assert found == [urquhart(place, nodes) for place in sources]
+
+
+@pytest.mark.parametrize("first", [1, 4])
+def test_nodes_on_the_source_are_perceived_once(first):
+    nodes = [(3.0, 0.0), (0.0, 0.0), (0.0, 0.0), (-2.0, 0.5), (0.5, 4.0)]
+    found = perceived_by_kernel(nodes, [(0.0, 0.0), (3.0, 0.0)], first)
+    assert found == [relative_neighbors(place, nodes) for place in [(0.0, 0.0), (3.0, 0.0)]]
+    assert found[0] == [1, 3, 0, 4]

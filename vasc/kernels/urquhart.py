@@ -5,18 +5,26 @@ its edges name the Delaunay neighbours (Runions 2008, section 4.4.2). Nodes that
 are not Delaunay neighbours exclude nobody, which is the approximation (Figure 4.13).
 """
 
-from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vasc.kernels.compiled import compiled, unowned
-from vasc.kernels.hash_grid import HashGrid, box_distance, cell_bounds, push_children, push_root
+from vasc.kernels.hash_grid import (
+    HashGrid,
+    box_distance,
+    cell_bounds,
+    nearest,
+    push_children,
+    push_root,
+)
 from vasc.kernels.lune import excludes
 from vasc.kernels.perceived import MAX_MEMBERS, OTHER_VEINS, SAME_VEINS, Perceived
 
-MAX_CORNERS = 48
+ROOM = 48
+"""Corners there is room for at first; beside a long smooth vein a cell has hundreds."""
+
 FAR = 1000.0
 """Half the side of the box that bounds every cell, in sizes of the blade."""
 CUT_SLACK = 1e-12
@@ -26,28 +34,33 @@ class VoronoiCells(NamedTuple):
     """Per source (row = source id): its Voronoi cell among the nodes, counter-clockwise."""
 
     corners: NDArray[np.float64]
-    """Corners relative to the source, shape (capacity, 48, 2)."""
+    """Corners relative to the source, shape (capacity, room, 2)."""
     neighbors: NDArray[np.int32]
     """The node beyond the edge from each corner to the next, -1 for the box."""
-    n_corners: NDArray[np.int8]
+    n_corners: NDArray[np.int32]
     """Number of corners, shape (capacity,)."""
+    here: NDArray[np.int32]
+    """The oldest node exactly on the source, -1 if none, shape (capacity,)."""
 
 
-def voronoi_cells(capacity: int) -> VoronoiCells:
-    """Make room for the cells of ``capacity`` sources."""
+def voronoi_cells(capacity: int, room: int = ROOM) -> VoronoiCells:
+    """Make room for the cells of ``capacity`` sources, with ``room`` corners each."""
     return VoronoiCells(
-        corners=np.zeros((capacity, MAX_CORNERS, 2)),
-        neighbors=np.full((capacity, MAX_CORNERS), -1, dtype=np.int32),
-        n_corners=np.zeros(capacity, dtype=np.int8),
+        corners=np.zeros((capacity, room, 2)),
+        neighbors=np.full((capacity, room), -1, dtype=np.int32),
+        n_corners=np.zeros(capacity, dtype=np.int32),
+        here=np.full(capacity, -1, dtype=np.int32),
     )
 
 
-def enlarged(old: VoronoiCells, capacity: int) -> VoronoiCells:
-    """Give a copy with room for more sources."""
-    new = voronoi_cells(capacity)
-    pairs: Iterable[tuple[NDArray, NDArray]] = zip(old, new, strict=True)
-    for source, target in pairs:
-        target[: len(source)] = source
+def enlarged(old: VoronoiCells, capacity: int, room: int = ROOM) -> VoronoiCells:
+    """Give a copy with room for more sources, or for more corners."""
+    n_old, old_room = old.neighbors.shape
+    new = voronoi_cells(capacity, max(room, old_room))
+    new.corners[:n_old, :old_room] = old.corners
+    new.neighbors[:n_old, :old_room] = old.neighbors
+    new.n_corners[:n_old] = old.n_corners
+    new.here[:n_old] = old.here
     return new
 
 
@@ -89,8 +102,11 @@ def _cut(
     wy: float,
     corners: NDArray[np.float64],
     neighbors: NDArray[np.int32],
-) -> None:
-    """Take from a cell what is nearer to a node at (wx, wy) from the source."""
+) -> bool:
+    """Take from a cell what is nearer to a node at (wx, wy) from the source.
+
+    Gives false, and leaves the cell as it is, if it has no room for its corners.
+    """
     n_old = cells.n_corners[s]
     square = wx * wx + wy * wy
     n_new = 0
@@ -99,21 +115,24 @@ def _cut(
         x, y = cells.corners[s, k, 0], cells.corners[s, k, 1]
         is_out = _cuts(cells, s, k, wx, wy) > 0.0
         is_next_out = _cuts(cells, s, following, wx, wy) > 0.0
-        if not is_out and n_new < MAX_CORNERS:
+        if not is_out:
             corners[n_new, 0], corners[n_new, 1] = x, y
             neighbors[n_new] = cells.neighbors[s, k]
             n_new += 1
-        if is_out != is_next_out and n_new < MAX_CORNERS:
+        if is_out != is_next_out:
             dx, dy = cells.corners[s, following, 0] - x, cells.corners[s, following, 1] - y
             at = (0.5 * square - (x * wx + y * wy)) / (dx * wx + dy * wy)
             at = min(1.0, max(0.0, at))
             corners[n_new, 0], corners[n_new, 1] = x + at * dx, y + at * dy
             neighbors[n_new] = node if is_next_out else cells.neighbors[s, k]
             n_new += 1
+    if n_new > cells.neighbors.shape[1]:
+        return False
     for k in range(n_new):
         cells.corners[s, k, 0], cells.corners[s, k, 1] = corners[k, 0], corners[k, 1]
         cells.neighbors[s, k] = neighbors[k]
     cells.n_corners[s] = n_new
+    return True
 
 
 @unowned
@@ -172,6 +191,10 @@ def _perceive(
         perceived.previous[s, k] = perceived.members[s, k]
     perceived.n_previous[s] = n_old
     n_members = 0
+    if cells.here[s] >= 0:
+        perceived.members[s, 0] = cells.here[s]
+        perceived.distances[s, 0] = 0.0
+        n_members = 1
     for k in range(cells.n_corners[s]):
         v = cells.neighbors[s, k]
         if v < 0:
@@ -232,6 +255,44 @@ def _squared(nodes: NDArray[np.float64], v: int, x: float, y: float) -> float:
 
 
 @compiled
+def _perceive_from(
+    first: int,
+    grid: HashGrid,
+    nodes: NDArray[np.float64],
+    parents: NDArray[np.int32],
+    sources: NDArray[np.float64],
+    chosen: NDArray[np.int32],
+    perceived: Perceived,
+    cells: VoronoiCells,
+    extent: float,
+) -> int:
+    """Serve the chosen sources from the first on; gives the row of one whose cell is full."""
+    # a cut leaves at most one corner more, and these are counted before they are refused
+    room = cells.neighbors.shape[1] + 2
+    corners, neighbors = np.empty((room, 2)), np.empty(room, dtype=np.int32)
+    far = FAR * extent
+    for row in range(first, len(chosen)):
+        s = chosen[row]
+        x, y = sources[s, 0], sources[s, 1]
+        for k in range(4):
+            cells.corners[s, k, 0] = far if k == 1 or k == 2 else -far
+            cells.corners[s, k, 1] = far if k >= 2 else -far
+            cells.neighbors[s, k] = -1
+        cells.n_corners[s] = 4
+        v, distance = nearest(grid, nodes, x, y)
+        cells.here[s] = v if distance == 0.0 else -1
+        perceived.n_members[s] = 0
+        while True:
+            v = _next_cutter(grid, nodes, x, y, s, cells)
+            if v < 0:
+                break
+            if not _cut(cells, s, v, nodes[v, 0] - x, nodes[v, 1] - y, corners, neighbors):
+                return row
+        _perceive(nodes, parents, x, y, s, cells, perceived)
+        perceived.change[s] = OTHER_VEINS
+    return len(chosen)
+
+
 def perceive_new(
     grid: HashGrid,
     nodes: NDArray[np.float64],
@@ -241,32 +302,61 @@ def perceive_new(
     perceived: Perceived,
     cells: VoronoiCells,
     extent: float,
-) -> None:
+) -> VoronoiCells:
     """Find cells and Urquhart neighbourhoods of the chosen sources from nothing.
 
-    ``extent`` is the size of the blade; a cell reaches ``FAR`` times that far.
+    ``extent`` is the size of the blade; a cell reaches ``FAR`` times that far. The
+    cells are given back, with more room if they needed it.
     """
-    corners = np.empty((MAX_CORNERS, 2))
-    neighbors = np.empty(MAX_CORNERS, dtype=np.int32)
-    far = FAR * extent
-    for s in chosen:
-        x, y = sources[s, 0], sources[s, 1]
-        for k in range(4):
-            cells.corners[s, k, 0] = far if k == 1 or k == 2 else -far
-            cells.corners[s, k, 1] = far if k >= 2 else -far
-            cells.neighbors[s, k] = -1
-        cells.n_corners[s] = 4
-        perceived.n_members[s] = 0
-        while True:
-            v = _next_cutter(grid, nodes, x, y, s, cells)
-            if v < 0:
-                break
-            _cut(cells, s, v, nodes[v, 0] - x, nodes[v, 1] - y, corners, neighbors)
-        _perceive(nodes, parents, x, y, s, cells, perceived)
-        perceived.change[s] = OTHER_VEINS
+    row = 0
+    while True:
+        row = _perceive_from(row, grid, nodes, parents, sources, chosen, perceived, cells, extent)
+        if row == len(chosen):
+            return cells
+        cells = enlarged(cells, len(cells.n_corners), 2 * cells.neighbors.shape[1])
 
 
 @compiled
+def _update_from(
+    first: int,
+    is_resumed: bool,
+    nodes: NDArray[np.float64],
+    parents: NDArray[np.int32],
+    start: int,
+    stop: int,
+    sources: NDArray[np.float64],
+    live: NDArray[np.int32],
+    perceived: Perceived,
+    cells: VoronoiCells,
+) -> int:
+    """Serve the live sources from the first on; gives the row of one whose cell is full."""
+    room = cells.neighbors.shape[1] + 2
+    corners, neighbors = np.empty((room, 2)), np.empty(room, dtype=np.int32)
+    for row in range(first, len(live)):
+        s = live[row]
+        x, y = sources[s, 0], sources[s, 1]
+        reach = 0.0
+        for k in range(cells.n_corners[s]):
+            dx, dy = cells.corners[s, k, 0], cells.corners[s, k, 1]
+            reach = max(reach, dx * dx + dy * dy)
+        # a cell that was full has been cut by some of the nodes already
+        is_changed = is_resumed and row == first
+        for c in range(start, stop):
+            wx, wy = nodes[c, 0] - x, nodes[c, 1] - y
+            square = wx * wx + wy * wy
+            if square == 0.0:
+                if cells.here[s] < 0:
+                    cells.here[s] = c
+                    is_changed = True
+            elif square <= 4.0 * reach and _is_cut(cells, s, wx, wy):
+                if not _cut(cells, s, c, wx, wy, corners, neighbors):
+                    return row
+                is_changed = True
+        if is_changed:
+            _perceive(nodes, parents, x, y, s, cells, perceived)
+    return len(live)
+
+
 def update(
     nodes: NDArray[np.float64],
     parents: NDArray[np.int32],
@@ -276,22 +366,17 @@ def update(
     live: NDArray[np.int32],
     perceived: Perceived,
     cells: VoronoiCells,
-) -> None:
-    """Bring cells and neighbourhoods up to date with nodes ``start`` to ``stop``."""
-    corners = np.empty((MAX_CORNERS, 2))
-    neighbors = np.empty(MAX_CORNERS, dtype=np.int32)
-    for s in live:
-        x, y = sources[s, 0], sources[s, 1]
-        reach = 0.0
-        for k in range(cells.n_corners[s]):
-            dx, dy = cells.corners[s, k, 0], cells.corners[s, k, 1]
-            reach = max(reach, dx * dx + dy * dy)
-        is_changed = False
-        for c in range(start, stop):
-            wx, wy = nodes[c, 0] - x, nodes[c, 1] - y
-            square = wx * wx + wy * wy
-            if square <= 4.0 * reach and square > 0.0 and _is_cut(cells, s, wx, wy):
-                _cut(cells, s, c, wx, wy, corners, neighbors)
-                is_changed = True
-        if is_changed:
-            _perceive(nodes, parents, x, y, s, cells, perceived)
+) -> VoronoiCells:
+    """Bring cells and neighbourhoods up to date with nodes ``start`` to ``stop``.
+
+    The cells are given back, with more room if they needed it.
+    """
+    row, is_resumed = 0, False
+    while True:
+        row = _update_from(
+            row, is_resumed, nodes, parents, start, stop, sources, live, perceived, cells
+        )
+        if row == len(live):
+            return cells
+        is_resumed = True
+        cells = enlarged(cells, len(cells.n_corners), 2 * cells.neighbors.shape[1])

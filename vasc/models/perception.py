@@ -140,7 +140,7 @@ class UrquhartPerception(Perception):
 
     def update(self, veins: Vasculature, known: Ids, start: int, stop: int) -> None:
         """Let new nodes cut the Voronoi cells."""
-        kernels.urquhart.update(
+        self._cells = kernels.urquhart.update(
             veins.material("nodes"),
             veins.nodes.arrays["parent"],
             start,
@@ -156,7 +156,7 @@ class UrquhartPerception(Perception):
         if len(self._cells.n_corners) < veins.sources.capacity:
             self._cells = kernels.urquhart.enlarged(self._cells, veins.sources.capacity)
         low_x, low_y, high_x, high_y = veins.box
-        kernels.urquhart.perceive_new(
+        self._cells = kernels.urquhart.perceive_new(
             veins.node_grid,
             veins.material("nodes"),
             veins.nodes.arrays["parent"],
