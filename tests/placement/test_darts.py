@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from reference.darts import PlainDarts, PlainLargestBlade, has_room
 from scipy import stats
 
 from vasc import kernels
@@ -17,82 +18,58 @@ DISTANCE = 5.0
 DENSITY = 0.01
 
 
-def venation(growth):
+def venation(growth, **placement):
     """A small leaf with given growth."""
+    tables = {"kind": growth}
+    if growth != "none":
+        tables |= {"final_length": 36.0, "length_per_step": 1.5}
     return ClosedVenation.model_validate(
         {
             "kind": "closed",
             "domain": {"shape": "ovate", "length": 12.0},
-            "growth": {"kind": growth, "final_length": 36.0, "length_per_step": 1.5},
+            "growth": tables,
             "placement": {
                 "kind": "darts",
                 "density": DENSITY,
                 "birth_distance_sources": DISTANCE,
                 "birth_distance_veins": DISTANCE,
+                **placement,
             },
             "arrival": {"kill_distance": 1.0},
         }
     )
 
 
-class NaivePlacement:
-    """Darts over the whole blade, each tested against everything."""
-
-    spacing = DISTANCE
-
-    def __init__(self, growth):
-        self.growth = growth
-
-    def begin(self, veins, rng):
-        """Nothing is drawn before the first step."""
-
-    def is_over(self, veins, step):
-        """Darts end with growth."""
-        return step >= self.growth.last_step
-
-    def place(self, veins, moment, rng):
-        """Throw a Poisson number of darts and keep those with room."""
-        if self.is_over(veins, moment.step - 1):
-            return
-        blade = self.growth.domain(moment.step)
-        low_x, low_y, high_x, high_y = blade.bounds
-        box = (high_x - low_x) * (high_y - low_y)
-        darts = rng.random((rng.poisson(DENSITY * box), 2))
-        darts = darts * (high_x - low_x, high_y - low_y) + (low_x, low_y)
-        for dart in darts[blade.contains(darts)]:
-            material = dart / moment.scale
-            nodes = veins.material("nodes")[: veins.nodes.n_rows]
-            live = veins.material("sources")[veins.live]
-            others = np.concatenate([nodes, live]) * moment.scale
-            if (((others - dart) ** 2).sum(axis=1) <= DISTANCE**2).any():
-                continue
-            veins.reserve_sources(1)
-            row = veins.sources.n_rows
-            veins.material("sources")[row] = material
-            veins.is_live[row] = 1
-            kernels.hash_grid.insert(veins.source_grid, veins.material("sources"), row, row + 1)
-            veins.add_sources(moment.step, 1, moment.scale, 0)
+READINGS = {
+    "marginal": ("marginal", "each_step", PlainDarts),
+    "isogonic": ("isogonic", "each_step", PlainDarts),
+    "largest blade": ("marginal", "largest_blade", PlainLargestBlade),
+}
 
 
-def placed(growth, is_naive):
+def placed(name, is_plain):
     """Numbers of sources, and all their places and steps, over many runs."""
+    growth, reading, plain = READINGS[name]
     counts, places, births = [], [], []
-    parameters = venation(growth)
+    parameters = venation(growth, reading=reading)
     for seed in range(N_RUNS):
         model = parameters.model()
-        if is_naive:
-            object.__setattr__(model, "placement", NaivePlacement(model.growth))
-        *_, last = simulate(model, Streams(seed + (10_000 if is_naive else 0)))
+        if is_plain:
+            darts = plain(
+                model.growth, density=DENSITY, source_distance=DISTANCE, node_distance=DISTANCE
+            )
+            object.__setattr__(model, "placement", darts)
+        *_, last = simulate(model, Streams(seed + (10_000 if is_plain else 0)))
         counts.append(last.n_rows("sources"))
         places.append(last.rows("sources", "position"))
         births.append(last.rows("sources", "birth"))
     return np.array(counts), np.concatenate(places), np.concatenate(births)
 
 
-@pytest.mark.parametrize("growth", ["marginal", "isogonic"])
-def test_thinned_darts_have_the_distribution_of_plain_ones(growth):
-    counts, places, births = placed(growth, is_naive=False)
-    plain_counts, plain_places, plain_births = placed(growth, is_naive=True)
+@pytest.mark.parametrize("name", READINGS)
+def test_sources_have_the_distribution_of_plain_darts(name):
+    counts, places, births = placed(name, is_plain=False)
+    plain_counts, plain_places, plain_births = placed(name, is_plain=True)
     spread = np.sqrt(counts.var() / N_RUNS + plain_counts.var() / N_RUNS)
     assert abs(counts.mean() - plain_counts.mean()) < 3.0 * spread
     # seeds are fixed, so that this is one draw: 0.001 for each of four comparisons
@@ -103,6 +80,55 @@ def test_thinned_darts_have_the_distribution_of_plain_ones(growth):
         (births, plain_births),
     ):
         assert stats.ks_2samp(ours, plain).pvalue > 0.001
+
+
+def test_the_sources_of_the_largest_blade_appear_when_the_contour_reaches_them():
+    parameters = venation("marginal", reading="largest_blade")
+    growth = parameters.model().growth
+    n_late = 0
+    for seed in range(20):
+        states = list(simulate(parameters.model(), Streams(seed)))
+        last = states[-1]
+        positions, births = last.rows("sources", "position"), last.rows("sources", "birth")
+        assert births.max() <= growth.last_step
+        for source, (place, birth) in enumerate(zip(positions, births.tolist(), strict=True)):
+            # inside the blade of its step, and not yet in the one before
+            assert growth.domain(birth).contains(place[None]).all()
+            if birth > 1:
+                n_late += 1
+                assert not growth.domain(birth - 1).contains(place[None]).any()
+            before = states[birth - 1]
+            alive = set(before.live.tolist()) | {s for s in range(source) if births[s] == birth}
+            nodes = before.rows("nodes", "position")
+            assert has_room(place, positions[sorted(alive)], nodes, DISTANCE, DISTANCE)
+    assert n_late > 100
+
+
+def test_darts_on_a_static_blade_end_when_no_room_is_left():
+    parameters = venation("none", density=0.2)
+    model = parameters.model()
+    states = list(simulate(model, Streams(3)))
+    last = states[-1]
+    assert len(last.live) == 0
+    births = last.rows("sources", "birth")
+    quiet = last.step - births.max()
+    assert quiet >= 10
+    # no place of the blade is farther than the birth distance from all veins
+    rng = np.random.default_rng(1)
+    points = rng.uniform(-12.0, 12.0, (4000, 2)) + np.array([0.0, 6.0])
+    points = points[last.blade.contains(points)]
+    nodes = last.network.positions
+    gaps = np.sqrt(((points[:, None] - nodes[None]) ** 2).sum(axis=2)).min(axis=1)
+    assert len(points) > 300
+    assert (gaps > DISTANCE).mean() < 0.01
+
+
+def test_darts_end_with_their_last_step():
+    *_, last = simulate(venation("none", until=4).model(), Streams(1))
+    assert last.n_rows("sources") > 0
+    assert last.rows("sources", "birth").max() <= 4
+    *_, growing = simulate(venation("marginal", until=4).model(), Streams(1))
+    assert growing.rows("sources", "birth").max() <= 4
 
 
 def test_poisson_counts_are_poisson():

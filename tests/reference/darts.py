@@ -71,3 +71,24 @@ class PlainDarts:
         veins.is_live[row] = 1
         kernels.hash_grid.insert(veins.source_grid, veins.material("sources"), row, row + 1)
         veins.add_sources(moment.step, 1, moment.scale, Cause.DART)
+
+
+class PlainLargestBlade(PlainDarts):
+    """The other reading: darts on the largest blade at first, that wait for the contour."""
+
+    def begin(self, veins, rng):
+        """Throw as many darts as the steps of growth would on the box of the largest blade."""
+        low_x, low_y, high_x, high_y = self.growth.domain(self.growth.last_step).bounds
+        sides = np.array([high_x - low_x, high_y - low_y])
+        n_darts = rng.poisson(self.density * sides.prod() * self.growth.last_step)
+        darts = rng.random((n_darts, 2)) * sides + (low_x, low_y)
+        self.waiting = darts[kept_apart(darts.tolist(), self.source_distance)]
+
+    def place(self, veins, moment, rng):
+        """Test the darts that the contour has reached."""
+        if self.is_over(veins, moment.step - 1):
+            return
+        is_inside = self.growth.domain(moment.step).contains(self.waiting)
+        for dart in self.waiting[is_inside]:
+            self._test(veins, moment, dart)
+        self.waiting = self.waiting[~is_inside]
