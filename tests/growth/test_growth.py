@@ -48,3 +48,40 @@ def test_nothing_grows_after_the_last_step_whatever_the_rounding():
     growth = MarginalParameters(final_length=766.6, length_per_step=5.3).growth(blade)
     last = growth.outline_scale(growth.last_step)
     assert growth.outline_scale(growth.last_step + 1) == last == 766.6 / blade.length
+
+
+@pytest.mark.parametrize("name", ["marginal", "isogonic"])
+@pytest.mark.parametrize("increase", [0.1, 0.3, 1.0 / 3.0, 2.0, 23.0, 500.0])
+def test_the_length_increases_by_the_same_amount_up_to_the_last_step(name, increase):
+    kinds = {"marginal": MarginalParameters, "isogonic": IsogonicParameters}
+    growth = kinds[name](final_length=33.0, length_per_step=increase).growth(BLADE)
+    lengths = [growth.domain(step).length for step in range(growth.last_step + 3)]
+    steps = np.diff(lengths)
+    np.testing.assert_allclose(steps[: growth.last_step - 1], increase, rtol=1e-9)
+    assert 0.0 < steps[growth.last_step - 1] <= increase * (1.0 + 1e-9)
+    assert steps[growth.last_step :].tolist() == [0.0, 0.0]
+    assert growth.outline_scale(growth.last_step) == 33.0 / BLADE.length
+
+
+@pytest.mark.parametrize("name", ["marginal", "isogonic"])
+def test_a_blade_of_final_length_does_not_grow(name):
+    kinds = {"marginal": MarginalParameters, "isogonic": IsogonicParameters}
+    growth = kinds[name](final_length=BLADE.length, length_per_step=1.0).growth(BLADE)
+    assert growth.last_step == 0
+    assert [growth.outline_scale(step) for step in (0, 1, 50)] == [1.0, 1.0, 1.0]
+
+
+def test_isogonic_points_keep_their_place_relative_to_the_margin():
+    growth = GROWTHS["isogonic"]
+    points = np.array([[0.0, 5.0], [1.0, 2.0]])
+    for step in (1, 6, 12):
+        there = growth.position(points, step)
+        ratio = growth.domain(step).margin_distance(there) / BLADE.margin_distance(points)
+        np.testing.assert_allclose(ratio, growth.scale(step), rtol=1e-9)
+
+
+def test_marginal_growth_leaves_the_seed_and_moves_the_margin():
+    growth = GROWTHS["marginal"]
+    points = np.array([[0.0, 5.0], [1.0, 2.0]])
+    np.testing.assert_array_equal(growth.position(points, 12), points)
+    assert (growth.domain(12).margin_distance(points) > BLADE.margin_distance(points)).all()

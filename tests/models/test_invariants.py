@@ -203,3 +203,19 @@ def test_the_last_step_of_a_config_ends_a_run():
     assert last.step == 9
     assert last.rows("events", "subject")[-1] == StopReason.STEP_LIMIT
     assert len(last.live) > 0
+
+
+@pytest.mark.parametrize(
+    ("shape", "growth"), [("bilobed", "none"), ("cordate", "isogonic"), ("lobed", "marginal")]
+)
+@pytest.mark.parametrize("kind", KINDS)
+def test_confined_veins_never_leave_the_blade(kind, shape, growth):
+    # between the lobes free veins take the short way, through the air
+    domain = {"shape": shape, "length": 50.0 if growth == "none" else 25.0}
+    tables = {"domain": domain, "placement": {**DARTS, "until": 40}}
+    free, confined = (
+        states_of(kind, growth, **tables, extension={"kind": way}) for way in ("free", "confined")
+    )
+    assert any(not s.blade.contains(s.network.positions[1:]).all() for s in free)
+    assert all(s.blade.contains(s.network.positions[1:]).all() for s in confined)
+    assert confined[-1].network.n_nodes > 100
