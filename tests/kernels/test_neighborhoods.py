@@ -84,14 +84,16 @@ def expected_change(old, new, parents):
     return SAME_VEINS if went_on else OTHER_VEINS
 
 
-@pytest.mark.parametrize("name", ["relative_neighbors", "nearest"])
-@settings(max_examples=200)
+@pytest.mark.parametrize(
+    ("name", "rule"), [("relative_neighbors", relative_neighbors), ("nearest", nearest)]
+)
+@settings(max_examples=300)
 @given(
     nodes=st.lists(PLACES, min_size=2, max_size=40),
     sources=st.lists(PLACES, min_size=1, max_size=8),
     seed=st.integers(0, 99),
 )
-def test_changes_are_told_from_the_sets_before_and_after(name, nodes, sources, seed):
+def test_changes_are_told_from_the_sets_before_and_after(name, rule, nodes, sources, seed):
     points, places = np.array(nodes), np.array(sources)
     parents = np.array([-1, *np.random.default_rng(seed).integers(0, range(1, len(points)))])
     parents = parents.astype(np.int32)
@@ -109,6 +111,7 @@ def test_changes_are_told_from_the_sets_before_and_after(name, nodes, sources, s
         kernel.update(grid, points, parents, start, stop, places, live, perceived)
         for s, old in enumerate(before):
             new = members(perceived, s)
+            assert new == rule(sources[s], nodes[:stop])
             if name == "relative_neighbors":
                 assert perceived.change[s] == expected_change(old, new, parents)
                 if old != new:
