@@ -176,6 +176,22 @@ def _next_cutter(
 
 
 @unowned
+def _put(perceived: Perceived, s: int, n_members: int, v: int, distance: float) -> None:
+    """Put a node at its place in the order of a source's set."""
+    members, distances = perceived.members, perceived.distances
+    place = n_members
+    while place > 0 and (
+        distances[s, place - 1] > distance
+        or (distances[s, place - 1] == distance and members[s, place - 1] > v)
+    ):
+        distances[s, place] = distances[s, place - 1]
+        members[s, place] = members[s, place - 1]
+        place -= 1
+    distances[s, place] = distance
+    members[s, place] = v
+
+
+@unowned
 def _perceive(
     nodes: NDArray[np.float64],
     parents: NDArray[np.int32],
@@ -211,19 +227,7 @@ def _perceive(
                 break
         if is_excluded or n_members == MAX_MEMBERS:
             continue
-        place = n_members
-        while place > 0 and (
-            perceived.distances[s, place - 1] > distance
-            or (
-                perceived.distances[s, place - 1] == distance
-                and perceived.members[s, place - 1] > v
-            )
-        ):
-            perceived.distances[s, place] = perceived.distances[s, place - 1]
-            perceived.members[s, place] = perceived.members[s, place - 1]
-            place -= 1
-        perceived.distances[s, place] = distance
-        perceived.members[s, place] = v
+        _put(perceived, s, n_members, v, distance)
         n_members += 1
     perceived.n_members[s] = n_members
     perceived.change[s] = max(perceived.change[s], _change(parents, s, perceived))
