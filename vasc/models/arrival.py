@@ -7,7 +7,6 @@ import numpy as np
 from vasc import kernels
 from vasc.arrays import Ids
 from vasc.events import EventKind
-from vasc.network import SegmentKind
 from vasc.parameters import Parameters, quantity
 from vasc.placement import Moment
 from vasc.states import SourceState

@@ -9,7 +9,12 @@ from pydantic import Field, model_validator
 from vasc import kernels
 from vasc.domain import BladeParameters
 from vasc.errors import ConfigError
-from vasc.growth import IsogonicParameters, LinearGrowthParameters, MarginalParameters, NoGrowthParameters
+from vasc.growth import (
+    IsogonicParameters,
+    LinearGrowthParameters,
+    MarginalParameters,
+    NoGrowthParameters,
+)
 from vasc.models.arrival import ArrivalParameters
 from vasc.models.extension import ExtensionParameters
 from vasc.models.refinement import NoRefinementParameters, SubdivisionParameters

@@ -60,7 +60,7 @@ class Subdivision(Refinement):
         return veins.nodes.n_rows - n_before
 
     def _watch(self, veins: Vasculature, step: int) -> None:
-        """Note when each segment not seen before will be too long (the next step at the soonest)."""
+        """Note when each new segment will be too long, in the next step at the soonest."""
         ids = np.arange(self._n_seen, veins.segments.n_rows, dtype=np.int32)
         self._n_seen = veins.segments.n_rows
         ids = ids[~veins.refined[ids]]
