@@ -1,7 +1,8 @@
 """Array aliases, the one place where shapes are checked, and append-only columns."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -20,6 +21,16 @@ Floats = NDArray[np.float64]
 """Real numbers, shape (n,)."""
 
 NULL = -1
+
+Struct = TypeVar("Struct", bound=tuple)
+
+
+def filled_from(new: Struct, old: Struct) -> Struct:
+    """Copy the rows of arrays into larger ones of the same names; the larger are returned."""
+    pairs: Iterable[tuple[NDArray, NDArray]] = zip(new, old, strict=True)
+    for target, source in pairs:
+        target[: len(source)] = source
+    return new
 
 
 def as_points(values: ArrayLike, name: str) -> Points:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vasc import kernels
-from vasc.arrays import NULL, Ids, Points
+from vasc.arrays import NULL, Ids, Points, filled_from
 from vasc.events import EventKind
 from vasc.network import Origin, SegmentKind
 from vasc.sources import Cause
@@ -50,7 +50,7 @@ class Vasculature:
     merged : dict of int to int
         Seeds whose veins are connected with those of an earlier seed.
     perceived, tags : Perceived, Tags
-        What sources perceive, and which veins they wait for.
+        Per source: the nodes that perceive it, and the veins it waits for.
     """
 
     def __init__(
@@ -109,8 +109,8 @@ class Vasculature:
         if self.sources.reserve(extra):
             capacity = self.sources.capacity
             self.is_live = _enlarged(self.is_live, capacity, 0)
-            self.perceived = kernels.perceived.enlarged(self.perceived, capacity)
-            self.tags = kernels.tags.enlarged(self.tags, capacity)
+            self.perceived = filled_from(kernels.perceived.perceived(capacity), self.perceived)
+            self.tags = filled_from(kernels.tags.tags(capacity), self.tags)
             following = _enlarged(self.source_grid.following, capacity, NULL)
             self.source_grid = self.source_grid._replace(following=following)
 

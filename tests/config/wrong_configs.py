@@ -118,6 +118,11 @@ WRONG = {
         "arrival.kill_distance = true",
         "a number",
     ),
+    "shape of the wrong type": (
+        config(domain='shape = ["ovate"]\nlength = 20.0'),
+        "domain.shape",
+        "ovate",
+    ),
     "list for a number": (
         config(domain='shape = "ovate"\nlength = [20.0]'),
         "domain.length = [20.0]",

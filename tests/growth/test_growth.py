@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from vasc.domain import BladeParameters
+from vasc.errors import ConfigError
 from vasc.growth import IsogonicParameters, MarginalParameters, NoGrowthParameters
 
 BLADE = BladeParameters(shape="ovate", length=10.0).blade()
@@ -85,3 +86,10 @@ def test_marginal_growth_leaves_the_seed_and_moves_the_margin():
     points = np.array([[0.0, 5.0], [1.0, 2.0]])
     np.testing.assert_array_equal(growth.position(points, 12), points)
     assert (growth.domain(12).margin_distance(points) > BLADE.margin_distance(points)).all()
+
+
+@pytest.mark.parametrize("per_step", [1e-9, 1e-320])
+def test_growth_that_would_hardly_end_is_refused(per_step):
+    parameters = MarginalParameters(final_length=33.0, length_per_step=per_step)
+    with pytest.raises(ConfigError, match=r"growth\.length_per_step.*allowed are 1,000,000"):
+        parameters.growth(BLADE)

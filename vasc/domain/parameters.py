@@ -74,7 +74,9 @@ class BladeParameters(Parameters):
     @classmethod
     def _name_parameters(cls, table: Any) -> Any:
         """Let the table of parameters say which shape it is for."""
-        if not isinstance(table, dict) or table.get("shape") not in SHAPES:
+        if not isinstance(table, dict) or not isinstance(table.get("shape"), str):
+            return table
+        if table["shape"] not in SHAPES:
             return table
         parameters = table.get("parameters")
         if parameters is None or isinstance(parameters, dict):

@@ -1,10 +1,21 @@
 """Growth as a map between material coordinates, which never change, and positions."""
 
 from abc import ABC, abstractmethod
+from functools import cached_property
+from typing import TYPE_CHECKING
 
+from vasc import kernels
 from vasc.arrays import Points
 from vasc.domain import Blade
+from vasc.errors import ConfigError
 from vasc.parameters import Parameters, quantity
+
+if TYPE_CHECKING:
+    from vasc.kernels.polygon import EdgeGrid
+
+
+MOST_STEPS = 1_000_000
+"""Greatest number of steps that growth may take."""
 
 
 class Growth(ABC):
@@ -24,6 +35,11 @@ class Growth(ABC):
 
     def __init__(self, blade: Blade) -> None:
         self.blade = blade
+
+    @cached_property
+    def outline(self) -> "EdgeGrid":
+        """The outline at step 0, ready for the question whether a point is inside."""
+        return kernels.polygon.edge_grid(*self.blade.flat)
 
     @property
     @abstractmethod
@@ -62,6 +78,11 @@ class LinearGrowth(Growth):
         Blade length at which growth ends, in D.
     length_per_step : float
         Increase of the blade length in one step, in D.
+
+    Raises
+    ------
+    ConfigError
+        If growth would take more than ``MOST_STEPS`` steps.
     """
 
     def __init__(self, blade: Blade, final_length: float, length_per_step: float) -> None:
@@ -69,6 +90,11 @@ class LinearGrowth(Growth):
         self.final_length = final_length
         self.length_per_step = length_per_step
         n_steps = max(0.0, (final_length - blade.length) / length_per_step)
+        if n_steps > MOST_STEPS:
+            raise ConfigError(
+                f"growth.length_per_step = {length_per_step:g}: growth would take {n_steps:.3g}"
+                f" steps; allowed are {MOST_STEPS:,}"
+            )
         self._last_step = int(n_steps) + (int(n_steps) < n_steps)
 
     @property

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vasc.kernels.compiled import compiled, unowned
-from vasc.kernels.hash_grid import HashGrid, any_within, cell_of, insert, squared_distance
+from vasc.kernels.hash_grid import SLACK, HashGrid, any_within, cell_of, insert, squared_distance
 from vasc.kernels.polygon import EdgeGrid, is_inside
 
 CELLS_PER_RADIUS = 4.0
@@ -56,7 +56,7 @@ def cover(
     """Take the cells out that lie wholly within ``radius`` of one of the nodes."""
     x0, y0, side = cells.corner[0], cells.corner[1], cells.corner[2]
     columns, rows = cells.shape[0], cells.shape[1]
-    limit = radius * radius * (1.0 - 1e-9)
+    limit = radius * radius * (1.0 - SLACK)
     for v in range(start, stop):
         x, y = nodes[v, 0], nodes[v, 1]
         first_row = max(cell_of(y - radius, y0, side, rows), 0)
@@ -104,7 +104,7 @@ def live_within(
     limit: float,
 ) -> bool:
     """Tell whether a live source lies at a squared distance of at most ``limit``."""
-    radius = np.sqrt(limit) * (1.0 + 1e-9)
+    radius = np.sqrt(limit) * (1.0 + SLACK)
     columns, rows = grid.shapes[0, 0], grid.shapes[0, 1]
     x0, y0, side = grid.corner[0], grid.corner[1], grid.corner[2]
     first_column = cell_of(x - radius, x0, side, columns)

@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 
 from vasc.kernels.compiled import inlined, unowned
 from vasc.kernels.hash_grid import (
+    SLACK,
     HashGrid,
     box_distance,
     cell_bounds,
@@ -12,9 +13,6 @@ from vasc.kernels.hash_grid import (
     push_children,
     squared_distance,
 )
-
-SLACK = 1e-9
-"""Relative widening of bounds, far above rounding: a bound only ever errs to the safe side."""
 
 
 @unowned

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from vasc.kernels.blocks import box_far_distance
 from vasc.kernels.compiled import compiled, inlined
-from vasc.kernels.hash_grid import HashGrid, box_distance, squared_distance
-from vasc.kernels.lune import SLACK, excludes, lune_witness
+from vasc.kernels.hash_grid import SLACK, HashGrid, box_distance, squared_distance
+from vasc.kernels.lune import excludes, lune_witness
 from vasc.kernels.perceived import MAX_MEMBERS, OTHER_VEINS, SAME_VEINS, Perceived
 
 N_WITNESSES = 3

@@ -1,6 +1,5 @@
-"""What each source perceives: the few nodes it attracts, as rows of plain arrays."""
+"""The few nodes that perceive each source, which it attracts, as rows of plain arrays."""
 
-from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -38,7 +37,7 @@ class Perceived(NamedTuple):
 
 
 def perceived(capacity: int) -> Perceived:
-    """Make room for what ``capacity`` sources perceive."""
+    """Make room for ``capacity`` sources."""
     return Perceived(
         members=np.full((capacity, MAX_MEMBERS), -1, dtype=np.int32),
         distances=np.full((capacity, MAX_MEMBERS), np.inf),
@@ -47,15 +46,6 @@ def perceived(capacity: int) -> Perceived:
         previous=np.full((capacity, MAX_MEMBERS), -1, dtype=np.int32),
         n_previous=np.zeros(capacity, dtype=np.int8),
     )
-
-
-def enlarged(old: Perceived, capacity: int) -> Perceived:
-    """Give a copy with room for more sources."""
-    new = perceived(capacity)
-    pairs: Iterable[tuple[NDArray, NDArray]] = zip(old, new, strict=True)
-    for source, target in pairs:
-        target[: len(source)] = source
-    return new
 
 
 @unowned

@@ -13,13 +13,14 @@ from numpy.typing import NDArray
 from vasc.kernels.blocks import Blocks, blocks_of
 from vasc.kernels.compiled import compiled, unowned
 from vasc.kernels.hash_grid import (
+    SLACK,
     HashGrid,
     cell_bounds,
     push_children,
     push_root,
     squared_distance,
 )
-from vasc.kernels.lune import SLACK, lune_witness
+from vasc.kernels.lune import lune_witness
 from vasc.kernels.offers import (
     Offers,
     admit,

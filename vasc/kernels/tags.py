@@ -1,6 +1,5 @@
 """Which veins a reached source still waits for (Runions 2008, section 4.3)."""
 
-from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -28,15 +27,6 @@ def tags(capacity: int) -> Tags:
         nodes=np.full((capacity, MAX_MEMBERS), -1, dtype=np.int32),
         n_nodes=np.zeros(capacity, dtype=np.int8),
     )
-
-
-def enlarged(old: Tags, capacity: int) -> Tags:
-    """Give a copy with room for more sources."""
-    new = tags(capacity)
-    pairs: Iterable[tuple[NDArray, NDArray]] = zip(old, new, strict=True)
-    for source, target in pairs:
-        target[: len(source)] = source
-    return new
 
 
 @unowned

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from vasc.kernels.compiled import compiled, unowned
 from vasc.kernels.hash_grid import (
+    SLACK,
     HashGrid,
     box_distance,
     cell_bounds,
@@ -154,7 +155,7 @@ def _next_cutter(
             dx, dy = cells.corners[s, k, 0], cells.corners[s, k, 1]
             bound = box_distance(low_x, low_y, high_x, high_y, x + dx, y + dy)
             # a node cuts a corner only from within the circle about it through the source
-            if bound <= (dx * dx + dy * dy) * (1.0 + 1e-9):
+            if bound <= (dx * dx + dy * dy) * (1.0 + SLACK):
                 is_far = False
                 break
         if is_far:

@@ -8,7 +8,6 @@ from pydantic import Field, model_validator
 
 from vasc import kernels
 from vasc.domain import BladeParameters
-from vasc.errors import ConfigError
 from vasc.growth import (
     IsogonicParameters,
     LinearGrowthParameters,
@@ -51,10 +50,6 @@ AnyPlacement = Annotated[DartParameters | GivenParameters, Field(discriminator="
 AnyRefinement = Annotated[
     NoRefinementParameters | SubdivisionParameters, Field(discriminator="kind")
 ]
-
-
-MOST_STEPS = 1_000_000
-"""Greatest number of steps that growth may take."""
 
 
 class StopParameters(Parameters):
@@ -174,11 +169,6 @@ class Venation(Parameters):
     def parts(self, folder: Path) -> dict[str, Any]:
         """Give the parts of the sentence that do not depend on the kind of venation."""
         growth = self.growth.growth(self.domain.blade(folder))
-        if growth.last_step > MOST_STEPS:
-            raise ConfigError(
-                f"growth.length_per_step: growth would take {growth.last_step:.3g} steps;"
-                f" allowed are {MOST_STEPS:,}"
-            )
         kill, length = self.arrival.kill_distance, self.extension.segment_length
         placement = self.placement
         if isinstance(placement, DartParameters):

@@ -29,7 +29,7 @@ class Colonization(Model):
     last_step : int or None
         The run ends after this step at the latest.
     least_change : int
-        Which changes of what sources perceive are recorded.
+        Which changes of the sets of perceiving nodes are recorded.
     """
 
     growth: Growth

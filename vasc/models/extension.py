@@ -1,8 +1,10 @@
 """Extension: every attracted node grows one segment toward its sources."""
 
+from abc import ABC, abstractmethod
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vasc import kernels
 from vasc.arrays import Ids, Points
@@ -15,7 +17,7 @@ from vasc.placement import Moment
 from vasc.vasculature import Vasculature
 
 
-class Extension:
+class Extension(ABC):
     """Adds one node to every attracted node, in the mean direction of its sources.
 
     Parameters
@@ -56,9 +58,9 @@ class Extension:
             self._add(veins, moment, parents, material, causes, is_stalled)
         return len(parents)
 
-    def allowed(self, material: Points, moment: Moment) -> np.ndarray:
-        """Tell which new nodes may come to be: here, all."""
-        return np.ones(len(material), dtype=bool)
+    @abstractmethod
+    def allowed(self, material: Points, moment: Moment) -> NDArray[np.bool_]:
+        """Tell which new nodes may come to be."""
 
     @staticmethod
     def _add(
@@ -67,7 +69,7 @@ class Extension:
         parents: Ids,
         material: Points,
         causes: Ids,
-        is_stalled: np.ndarray,
+        is_stalled: NDArray[np.bool_],
     ) -> None:
         """Append nodes, segments and events."""
         branches = veins.has_child[parents]
@@ -85,6 +87,14 @@ class Extension:
             veins.log(
                 moment.step, EventKind.STALL_RESOLVED, parents[is_stalled], causes[is_stalled]
             )
+
+
+class FreeExtension(Extension):
+    """An extension that may cross the margin, where the blade is concave."""
+
+    def allowed(self, material: Points, moment: Moment) -> NDArray[np.bool_]:
+        """Allow all."""
+        return np.ones(len(material), dtype=bool)
 
 
 class ConfinedExtension(Extension):
@@ -107,11 +117,11 @@ class ConfinedExtension(Extension):
         stall_rule: bool,
     ) -> None:
         super().__init__(segment_length, bias, stall_rule=stall_rule)
-        self.outline = kernels.polygon.edge_grid(*growth.blade.flat)
+        self.growth = growth
 
-    def allowed(self, material: Points, moment: Moment) -> np.ndarray:
+    def allowed(self, material: Points, moment: Moment) -> NDArray[np.bool_]:
         """Tell which new nodes are in the blade."""
-        return kernels.polygon.are_inside(self.outline, material, moment.outline_size)
+        return kernels.polygon.are_inside(self.growth.outline, material, moment.outline_size)
 
 
 class ExtensionParameters(Parameters):
@@ -143,4 +153,4 @@ class ExtensionParameters(Parameters):
             return ConfinedExtension(
                 growth, self.segment_length, self.bias, stall_rule=self.stall_rule
             )
-        return Extension(self.segment_length, self.bias, stall_rule=self.stall_rule)
+        return FreeExtension(self.segment_length, self.bias, stall_rule=self.stall_rule)

@@ -47,7 +47,7 @@ class Perception(ABC):
         """Find the sets of new sources, among the nodes that are in the grid."""
 
     def look(self, veins: Vasculature, n_nodes: int) -> None:
-        """Bring what all sources perceive up to date with the first ``n_nodes`` nodes."""
+        """Bring all sets up to date with the first ``n_nodes`` nodes."""
         n_known = int(np.searchsorted(veins.live, self._n_sources))
         if n_known and n_nodes > self._n_nodes:
             self.update(veins, veins.live[:n_known], self._n_nodes, n_nodes)

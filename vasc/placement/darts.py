@@ -55,7 +55,6 @@ class DartPlacement(Placement):
         self.node_distance = node_distance
         self.last_step = growth.last_step if last_step is None else last_step
         self.is_until_saturated = last_step is None and growth.last_step == 0
-        self.outline = kernels.polygon.edge_grid(*growth.blade.flat)
         self._epoch_end = 0
         cell_area = (node_distance / kernels.darts.CELLS_PER_RADIUS) ** 2
         self._n_quiet_steps = int(np.ceil(DARTS_PER_CELL / (density * cell_area)))
@@ -81,7 +80,7 @@ class DartPlacement(Placement):
         n_before = veins.sources.n_rows
         n_after = kernels.darts.throw(
             darts,
-            self.outline,
+            self.growth.outline,
             moment.outline_size,
             veins.node_grid,
             veins.material("nodes"),

@@ -35,7 +35,6 @@ class LargestBladePlacement(Placement):
         self.density = density
         self.source_distance = source_distance
         self.node_distance = node_distance
-        self.outline = kernels.polygon.edge_grid(*growth.blade.flat)
 
     @property
     def spacing(self) -> float:
@@ -61,14 +60,16 @@ class LargestBladePlacement(Placement):
         """Let the sources appear that the contour has reached."""
         if self.is_over(veins, moment.step - 1):
             return
-        is_inside = kernels.polygon.are_inside(self.outline, self._waiting, moment.outline_size)
+        is_inside = kernels.polygon.are_inside(
+            self.growth.outline, self._waiting, moment.outline_size
+        )
         arriving = np.ascontiguousarray(self._waiting[is_inside])
         self._waiting = self._waiting[~is_inside]
         veins.reserve_sources(len(arriving))
         n_before = veins.sources.n_rows
         n_after = kernels.darts.throw(
             arriving,
-            self.outline,
+            self.growth.outline,
             moment.outline_size,
             veins.node_grid,
             veins.material("nodes"),
