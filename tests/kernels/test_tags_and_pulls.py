@@ -102,7 +102,7 @@ def pulls_of(seed, kill, influence):
     for s, members in enumerate(sets):
         awaited = inherited(tags, s, parents, births) if tags.step[s] >= 0 else set(members)
         for v, gap in zip(members, squares[s], strict=True):
-            if kill <= gap <= influence and gap > 0.0 and v in awaited:
+            if kill < gap <= influence and gap > 0.0 and v in awaited:
                 pullers.setdefault(v, []).append(s)
     perceived = perceived_of(sets, squares)
     pulls = kernels.extension.pulls(MAX * len(sets))
@@ -188,7 +188,7 @@ def test_sources_are_tagged_and_wait(seed, kill, influence):
     tagged, reached = kernels.arrival.tag_and_wait(
         live, perceived, tags, parents, births, step, kill, influence
     )
-    near = [s for s in live if squares[s] and squares[s][0] < kill]
+    near = [s for s in live if squares[s] and squares[s][0] <= kill]
     assert tagged.tolist() == [s for s in near if not was_tagged[s]]
     for s in tagged:
         assert tags.step[s] == step
@@ -197,7 +197,7 @@ def test_sources_are_tagged_and_wait(seed, kill, influence):
         s
         for s in np.flatnonzero(tags.step >= 0).tolist()
         if any(
-            kill <= gap <= influence and v in inherited(tags, s, parents, births)
+            kill < gap <= influence and v in inherited(tags, s, parents, births)
             for v, gap in zip(sets[s], squares[s], strict=True)
         )
     ]
@@ -205,11 +205,11 @@ def test_sources_are_tagged_and_wait(seed, kill, influence):
 
 
 @pytest.mark.parametrize("kill", [0.0, 1.0, 2.0])
-def test_open_sources_are_reached_within_and_not_at_the_kill_distance(kill):
+def test_open_sources_are_reached_at_and_within_the_kill_distance(kill):
     perceived = perceived_of([[3], [], [5], [7]], [[1.0], [], [0.25], [2.0]])
     live = np.array([0, 1, 2, 3], dtype=np.int32)
     found = kernels.arrival.reached_first(live, perceived, kill)
-    assert found.tolist() == {0.0: [], 1.0: [2], 2.0: [0, 2]}[kill]
+    assert found.tolist() == {0.0: [], 1.0: [0, 2], 2.0: [0, 2, 3]}[kill]
 
 
 def test_nothing_pulled_has_no_children():

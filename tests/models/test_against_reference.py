@@ -129,6 +129,16 @@ def test_a_livelock_is_reported():
     assert state.step < 50
 
 
+@pytest.mark.parametrize("kind", ["open", "closed"])
+def test_a_vein_exactly_at_the_kill_distance_has_reached_its_source(kind):
+    # d_k = D and a source a whole number of segments away: every distance is exact
+    tables = config(kind, [(0.0, 5.0)], arrival={"kill_distance": 1.0})
+    tables["domain"]["seeds"] = [(0.0, 0.0)]
+    state = run(tables)
+    assert len(state.live) == 0
+    assert state.rows("nodes", "material").tolist() == [[0.0, y] for y in range(5)]
+
+
 def test_a_kill_distance_below_the_segment_length_is_refused_with_the_reason():
     tables = config("open", [(1.0, 5.0)])
     tables["arrival"] = {"kill_distance": 0.5}

@@ -121,7 +121,7 @@ def pullers_of_nodes(leaf, rules, attracted, scale):
     for s, members in sorted(attracted.items()):
         for v in members:
             distance = sqrt(square(leaf.nodes[v], leaf.sources[s])) * scale
-            if not rules.kill <= distance <= rules.influence:
+            if not rules.kill < distance <= rules.influence:
                 continue
             if s not in leaf.tags or is_awaited(leaf, s, v):
                 pullers.setdefault(v, []).append(s)
@@ -178,7 +178,7 @@ def arrive(leaf, rules, before, after, scale):
     n_changes = 0
     for s, place in sorted(leaf.sources.items()):
         gaps = {v: sqrt(square(leaf.nodes[v], place)) * scale for v in after[s]}
-        arrived = [v for v in after[s] if gaps[v] < rules.kill]
+        arrived = [v for v in after[s] if gaps[v] <= rules.kill]
         if s not in leaf.tags:
             if not arrived:
                 continue
@@ -186,7 +186,7 @@ def arrive(leaf, rules, before, after, scale):
                 leaf.tags[s] = (leaf.step, before[s])
                 leaf.tagged += [(leaf.step, s, v) for v in before[s]]
                 n_changes += 1
-        coming = [v for v in after[s] if rules.kill <= gaps[v] <= rules.influence]
+        coming = [v for v in after[s] if rules.kill < gaps[v] <= rules.influence]
         if rules.is_closed and any(is_awaited(leaf, s, v) for v in coming):
             continue
         joined = [join(leaf, rules, s, arrived[0], v, scale) for v in arrived[1:]]

@@ -14,7 +14,7 @@ def reached_first(live: NDArray[np.int32], perceived: Perceived, kill: float) ->
     reached = np.empty(len(live), dtype=np.int32)
     n_reached = 0
     for s in live:
-        if perceived.n_members[s] > 0 and perceived.distances[s, 0] < kill:
+        if perceived.n_members[s] > 0 and perceived.distances[s, 0] <= kill:
             reached[n_reached] = s
             n_reached += 1
     return reached[:n_reached]
@@ -62,7 +62,7 @@ def tag_and_wait(
     for s in live:
         n_members = perceived.n_members[s]
         if tags.step[s] < 0:
-            if n_members == 0 or perceived.distances[s, 0] >= kill:
+            if n_members == 0 or perceived.distances[s, 0] > kill:
                 continue
             tags.step[s] = step
             if perceived.change[s] != 0:
@@ -76,7 +76,7 @@ def tag_and_wait(
         is_waiting = False
         for k in range(n_members):
             distance = perceived.distances[s, k]
-            if kill <= distance <= influence and is_tagged(
+            if kill < distance <= influence and is_tagged(
                 tags, s, perceived.members[s, k], parents, births
             ):
                 is_waiting = True

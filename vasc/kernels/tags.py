@@ -63,7 +63,7 @@ def is_pulled(
     once tagged only the lineages it waits for.
     """
     distance = perceived.distances[s, k]
-    if distance < kill or distance > influence:
+    if distance <= kill or distance > influence:
         return False
     if tags.step[s] < 0:
         return True

@@ -19,7 +19,7 @@ class Arrival(ABC):
     Parameters
     ----------
     kill_distance : float
-        A vein nearer than that to a source has reached it (d_k), in D.
+        A vein not farther than that from a source has reached it (d_k), in D.
     """
 
     def __init__(self, kill_distance: float) -> None:
@@ -108,7 +108,7 @@ class TaggedArrival(Arrival):
         """Join the veins that arrived at a source; tells whether any were."""
         n_members = veins.perceived.n_members[source]
         members = veins.perceived.members[source, :n_members]
-        arrived = members[veins.perceived.distances[source, :n_members] < limit].tolist()
+        arrived = members[veins.perceived.distances[source, :n_members] <= limit].tolist()
         is_joined = False
         for other in arrived[1:]:
             pair = (min(arrived[0], other), max(arrived[0], other))
@@ -131,5 +131,5 @@ class ArrivalParameters(Parameters):
     """When a source counts as reached."""
 
     kill_distance: float = quantity(
-        "A vein nearer than this has reached a source (d_k in Table 4.1).", unit="D", gt=0.0
+        "A vein not farther than this has reached a source (d_k in Table 4.1).", unit="D", gt=0.0
     )
