@@ -30,6 +30,20 @@ class EventKind(IntEnum):
     """(-1, -1)"""
     RUN_FINISHED = 10
     """(reason, -1): see StopReason"""
+    NODE_RETIRED = 11
+    """(node, -1): refinement has cut the corner that the node was"""
+    STRAND_EXTENDED = 12
+    """(canal, node): the strand that differentiates along a canal has a new tip"""
+    CANAL_RETARGETED = 13
+    """(canal, node): the node a canal leads to, after refinement has replaced the former"""
+    AREOLE_BORN = 14
+    """(areole, segment): the segment closed it in tissue that was not enclosed"""
+    AREOLE_SPLIT = 15
+    """(areole, segment): the segment divides it in two, which are areoles of their own"""
+    SOURCE_ENCLOSED = 16
+    """(source, areole): the areole in which the source has appeared"""
+    MESOPHYLL_EVENT = 17
+    """(-1, -1): from now on developing veins end blindly"""
 
 
 class StopReason(IntEnum):

@@ -11,11 +11,15 @@ class Cause(IntEnum):
 
     DART = 0
     GIVEN = 1
+    SPACE = 2
+    """Centre of the largest empty circle, within the blade."""
+    MARGIN = 3
+    """Centre of the largest empty circle, on the margin."""
 
 
 SOURCE_COLUMNS = {
     "birth": Column("i4", "step of birth"),
-    "cause": Column("i1", "0 dart, 1 given"),
+    "cause": Column("i1", "0 dart, 1 given, 2 largest empty circle, 3 the same, on the margin"),
     "position": Column("f8", "position at birth", unit="length", shape=(2,)),
     "material": Column("f8", "material coordinates", unit="length", shape=(2,)),
 }

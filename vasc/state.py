@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,6 +49,17 @@ def affine(scale: float) -> NDArray[np.float64]:
     return IDENTITY * scale
 
 
+class Places(NamedTuple):
+    """Where everything is at one step of a blade that no affine map moves."""
+
+    nodes: Points
+    """Positions of all nodes, retired ones as well, shape (n, 2); row = node id."""
+    sources: Points
+    """Positions of all sources, drained ones as well, shape (s, 2); row = source id."""
+    outline: Points
+    """The outline: one ring, of as many points at every step, shape (m, 2)."""
+
+
 @dataclass(frozen=True)
 class State:
     """One moment of a run; a view that copies nothing of what exists.
@@ -60,9 +72,10 @@ class State:
         Model time, in steps; ``[units]`` gives a step a duration.
     blade : Blade
         The blade at this time, in real size.
-    motion : ndarray of shape (2, 3), float64
-        Affine map from material coordinates to positions at this time.
-    outline_motion : ndarray of shape (2, 3), float64
+    motion : ndarray of shape (2, 3), float64, or None
+        Affine map from material coordinates to positions at this time; None where
+        there is none, and ``places`` tell the positions.
+    outline_motion : ndarray of shape (2, 3), float64, or None
         Affine map from the initial outline to the outline at this time.
     counts : tuple of int
         Rows of every table that exist at this step (``TABLE_COLUMNS`` order).
@@ -70,6 +83,8 @@ class State:
         Ids of the live sources, ascending.
     tables : Tables
         The shared tables.
+    places : Places or None
+        Explicit positions; None where ``motion`` tells them.
     index : object
         What the model needs to go on from here.
     is_finished : bool
@@ -79,11 +94,12 @@ class State:
     step: int
     time: float
     blade: Blade
-    motion: NDArray[np.float64]
-    outline_motion: NDArray[np.float64]
+    motion: NDArray[np.float64] | None
+    outline_motion: NDArray[np.float64] | None
     counts: tuple[int, ...]
     live: Ids
     tables: Tables = field(repr=False)
+    places: Places | None = field(repr=False, default=None)
     index: object = field(repr=False, default=None)
     is_finished: bool = False
 
@@ -95,9 +111,9 @@ class State:
         """Give a column of a table as it was at this step."""
         return self.tables[table].view(column, 0, self.n_rows(table))
 
-    def moved(self, material: Points) -> Points:
-        """Give the positions of material points at this time."""
-        return moved(material, self.motion)
+    def positions(self, table: str) -> Points:
+        """Give the positions of all nodes or sources at this time, shape (n, 2)."""
+        return positions(self.places, self.motion, table, self.rows(table, "material"))
 
     @cached_property
     def network(self) -> VeinNetwork:
@@ -106,7 +122,7 @@ class State:
             {name: self.rows("nodes", name) for name in NODE_COLUMNS},
             {name: self.rows("segments", name) for name in SEGMENT_COLUMNS},
             {name: self.rows("events", name) for name in EVENT_COLUMNS},
-            self.moved(self.rows("nodes", "material")),
+            self.positions("nodes"),
         )
 
     @cached_property
@@ -114,13 +130,23 @@ class State:
         """The live sources at this step, in real size."""
         return SourceSet(
             ids=self.live,
-            positions=self.moved(self.rows("sources", "material")[self.live]),
+            positions=self.positions("sources")[self.live],
             births=self.rows("sources", "birth")[self.live],
             states=source_states(
                 {name: self.rows("states", name) for name in STATE_COLUMNS},
                 self.n_rows("sources"),
             )[self.live],
         )
+
+
+def positions(
+    places: Places | None, motion: NDArray[np.float64] | None, table: str, material: Points
+) -> Points:
+    """Give the positions of all nodes or sources: explicit ones, or moved material points."""
+    if places is not None:
+        return places.nodes if table == "nodes" else places.sources
+    assert motion is not None, "a state has places or a motion"
+    return moved(material, motion)
 
 
 def moved(points: Points, motion: NDArray[np.float64]) -> Points:

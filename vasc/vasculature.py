@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vasc import kernels
-from vasc.arrays import NULL, Ids, Points, filled_from
+from vasc.arrays import NULL, Codes, Ids, Points, filled_from
 from vasc.events import EventKind
 from vasc.network import Origin, SegmentKind
 from vasc.sources import Cause
-from vasc.state import Tables
+from vasc.state import Places, Tables
 from vasc.states import Kind, SourceState
 
 CELL_LIMITS = (2.0, 8.0)
@@ -51,6 +51,10 @@ class Vasculature:
         Seeds whose veins are connected with those of an earlier seed.
     perceived, tags : Perceived, Tags
         Per source: the nodes that perceive it, and the veins it waits for.
+    is_retired : ndarray of bool
+        Per node: whether refinement has replaced it.
+    n_moves : int
+        How often the places of nodes and sources have changed.
     """
 
     def __init__(
@@ -70,6 +74,9 @@ class Vasculature:
         self.live: Ids = np.empty(0, dtype=np.int32)
         n_nodes, n_sources = self.nodes.capacity, self.sources.capacity
         self.has_child = np.zeros(n_nodes, dtype=bool)
+        self.is_retired = np.zeros(n_nodes, dtype=bool)
+        self.n_moves = 0
+        self._moved: dict[str, Points] = {}
         self.refined = np.zeros(self.segments.capacity, dtype=bool)
         self.rank = np.full(n_nodes, NULL, dtype=np.int32)
         self.trees = np.full(n_nodes, NULL, dtype=np.int32)
@@ -86,13 +93,44 @@ class Vasculature:
         self.side = side
         grid = kernels.hash_grid
         self.node_grid = grid.hash_grid(self.box, side, self.nodes.capacity)
-        grid.insert(self.node_grid, self.material("nodes"), 0, n_nodes)
+        self.index_nodes(0, n_nodes)
         self.source_grid = grid.hash_grid(self.box, side, self.sources.capacity)
-        grid.insert_chosen(self.source_grid, self.material("sources"), self.live)
+        grid.insert_chosen(self.source_grid, self.places("sources"), self.live)
 
-    def material(self, table: str) -> Points:
-        """Give the whole buffer of material coordinates of nodes or sources."""
-        return self.tables[table].arrays["material"]
+    def places(self, table: str) -> Points:
+        """Give the whole buffer of places of nodes or sources, between which distances are taken.
+
+        They are material coordinates, or positions once :meth:`move` has told them.
+        """
+        return self._moved.get(table, self.tables[table].arrays["material"])
+
+    def move(self, nodes: Points, sources: Points) -> None:
+        """Give all nodes and sources new places, shapes (n, 2) and (s, 2), and index them anew."""
+        for name, places in (("nodes", nodes), ("sources", sources)):
+            buffer = np.empty((self.tables[name].capacity, 2))
+            buffer[: len(places)] = places
+            self._moved[name] = buffer
+        self.n_moves += 1
+        self.regrid(self.side, self.nodes.n_rows)
+
+    def moved(self, outline: Points) -> Places:
+        """Give the places of all nodes and sources as they are now, with an outline."""
+        nodes = self._moved["nodes"][: self.nodes.n_rows]
+        sources = self._moved["sources"][: self.sources.n_rows]
+        for places in (nodes, sources):
+            places.flags.writeable = False
+        return Places(nodes, sources, outline)
+
+    def retire(self, step: int, nodes: Ids) -> None:
+        """Take nodes that refinement has replaced out of the veins."""
+        self.is_retired[nodes] = True
+        self.log(step, EventKind.NODE_RETIRED, nodes, NULL)
+        self.regrid(self.side, self.nodes.n_rows)
+
+    def _enlarge_moved(self, table: str) -> None:
+        """Make room for as many places as the table has rows."""
+        if table in self._moved:
+            self._moved[table] = _enlarged(self._moved[table], self.tables[table].capacity, np.nan)
 
     def reserve_nodes(self, extra: int) -> None:
         """Make room for ``extra`` more nodes in the table and in the indexes."""
@@ -101,6 +139,8 @@ class Vasculature:
             self.has_child = _enlarged(self.has_child, capacity, False)
             self.rank = _enlarged(self.rank, capacity, NULL)
             self.trees = _enlarged(self.trees, capacity, NULL)
+            self.is_retired = _enlarged(self.is_retired, capacity, False)
+            self._enlarge_moved("nodes")
             following = _enlarged(self.node_grid.following, capacity, NULL)
             self.node_grid = self.node_grid._replace(following=following)
 
@@ -109,6 +149,7 @@ class Vasculature:
         if self.sources.reserve(extra):
             capacity = self.sources.capacity
             self.is_live = _enlarged(self.is_live, capacity, 0)
+            self._enlarge_moved("sources")
             self.perceived = filled_from(kernels.perceived.perceived(capacity), self.perceived)
             self.tags = filled_from(kernels.tags.tags(capacity), self.tags)
             following = _enlarged(self.source_grid.following, capacity, NULL)
@@ -119,9 +160,9 @@ class Vasculature:
         if len(self.pulls.nodes) < n_pairs:
             self.pulls = kernels.extension.pulls(n_pairs + n_pairs // 2)
 
-    def seed(self, material: Points, scale: float) -> None:
+    def seed(self, material: Points, positions: Points) -> None:
         """Begin with isolated nodes."""
-        self.add_nodes(0, material, scale, NULL, NULL, Origin.SEED)
+        self.add_nodes(0, material, positions, NULL, NULL, Origin.SEED)
 
     def restore(self, step: int) -> int:
         """Rebuild everything but the perceived sets from the tables.
@@ -137,6 +178,7 @@ class Vasculature:
         self.has_child[: nodes.n_rows][is_halving] = True
         self.trees[: nodes.n_rows] = _roots(parents)
         kinds, subjects = events.view("kind"), events.view("subject")
+        self.is_retired[subjects[kinds == EventKind.NODE_RETIRED]] = True
         self.refined[subjects[kinds == EventKind.SEGMENT_REFINED]] = True
         for row in np.flatnonzero(self.segments.view("kind") == SegmentKind.JOIN).tolist():
             self._connect(tuple(self.segments.view("nodes")[row].tolist()))
@@ -156,7 +198,7 @@ class Vasculature:
         self,
         step: int,
         material: Points,
-        scale: float,
+        positions: Points,
         parents: Ids | int,
         causes: Ids | int,
         origin: Origin,
@@ -172,7 +214,9 @@ class Vasculature:
         columns["origin"][rows] = origin
         columns["source"][rows] = causes
         columns["material"][rows] = material
-        columns["position"][rows] = material * scale
+        columns["position"][rows] = positions
+        if self._moved:
+            self._moved["nodes"][rows] = positions
         self.nodes.n_rows += n_new
         is_seed = origin == Origin.SEED
         self.trees[rows] = np.arange(start, start + n_new) if is_seed else self.trees[parents]
@@ -192,13 +236,23 @@ class Vasculature:
         self.segments.n_rows += n_new
         return rows
 
-    def add_sources(self, step: int, n_new: int, scale: float, cause: Cause) -> slice:
-        """Give birth to sources whose material coordinates and index entries exist already."""
+    def new_places(self, n_new: int) -> Points:
+        """Give the places in the buffer of the next ``n_new`` sources."""
+        return self.places("sources")[self.sources.n_rows : self.sources.n_rows + n_new]
+
+    def add_sources(
+        self, step: int, material: Points, positions: Points, causes: Cause | Codes
+    ) -> slice:
+        """Give birth to sources whose places in the buffer and in the index exist already."""
+        n_new = len(material)
         rows = slice(self.sources.n_rows, self.sources.n_rows + n_new)
         columns = self.sources.arrays
         columns["birth"][rows] = step
-        columns["cause"][rows] = cause
-        columns["position"][rows] = columns["material"][rows] * scale
+        columns["cause"][rows] = causes
+        columns["material"][rows] = material
+        columns["position"][rows] = positions
+        if self._moved:
+            self._moved["sources"][rows] = positions
         self.sources.n_rows += n_new
         if n_new:
             ids = np.arange(rows.start, rows.stop, dtype=np.int32)
@@ -263,8 +317,13 @@ class Vasculature:
         table.n_rows += len(ids)
 
     def index_nodes(self, start: int, stop: int) -> None:
-        """Put nodes that are in the table into the grid."""
-        kernels.hash_grid.insert(self.node_grid, self.material("nodes"), start, stop)
+        """Put nodes that are in the table into the grid, but for retired ones."""
+        grid, places = self.node_grid, self.places("nodes")
+        if self.is_retired[start:stop].any():
+            ids = np.flatnonzero(~self.is_retired[start:stop]).astype(np.int32) + np.int32(start)
+            kernels.hash_grid.insert_chosen(grid, places, ids)
+        else:
+            kernels.hash_grid.insert(grid, places, start, stop)
 
     def forget_changes(self) -> None:
         """Count all changes of perceived sets as recorded."""
@@ -290,7 +349,7 @@ class Vasculature:
 
 def _enlarged(array: NDArray, capacity: int, fill: object) -> NDArray:
     """Give a copy with room for more rows."""
-    larger = np.full(capacity, fill, dtype=array.dtype)
+    larger = np.full((capacity, *array.shape[1:]), fill, dtype=array.dtype)
     larger[: len(array)] = array
     return larger
 

@@ -187,11 +187,11 @@ def test_sources_are_born_in_the_blade_and_apart(kind):
     for before, state in pairwise(states):
         born = np.arange(n_before, state.n_rows("sources"))
         n_before = state.n_rows("sources")
-        positions = state.moved(state.rows("sources", "material"))[born]
+        positions = state.positions("sources")[born]
         np.testing.assert_allclose(positions, state.rows("sources", "position")[born], rtol=1e-15)
         assert state.blade.contains(positions).all()
-        nodes = state.moved(before.rows("nodes", "material"))
-        live = state.moved(state.rows("sources", "material"))[before.live]
+        nodes = state.positions("nodes")[: before.n_rows("nodes")]
+        live = state.positions("sources")[before.live]
         others = np.concatenate([nodes, live])
         for position in positions:
             assert np.hypot(*(others - position).T).min() > 5.0 * (1.0 - 1e-12)

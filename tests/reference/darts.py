@@ -57,8 +57,8 @@ class PlainDarts:
 
     def _test(self, veins, moment, dart):
         """Make a source of a dart with room."""
-        nodes = veins.material("nodes")[: veins.nodes.n_rows] * moment.scale
-        live = veins.material("sources")[veins.live] * moment.scale
+        nodes = veins.places("nodes")[: veins.nodes.n_rows] * moment.scale
+        live = veins.places("sources")[veins.live] * moment.scale
         gaps_to_nodes = ((nodes - dart) ** 2).sum(axis=1)
         gaps_to_live = ((live - dart) ** 2).sum(axis=1)
         if (gaps_to_nodes <= self.node_distance**2).any():
@@ -67,10 +67,10 @@ class PlainDarts:
             return
         veins.reserve_sources(1)
         row = veins.sources.n_rows
-        veins.material("sources")[row] = dart / moment.scale
+        veins.places("sources")[row] = dart / moment.scale
         veins.is_live[row] = 1
-        kernels.hash_grid.insert(veins.source_grid, veins.material("sources"), row, row + 1)
-        veins.add_sources(moment.step, 1, moment.scale, Cause.DART)
+        kernels.hash_grid.insert(veins.source_grid, veins.places("sources"), row, row + 1)
+        veins.add_sources(moment.step, *moment.embed(veins.new_places(1)), Cause.DART)
 
 
 class PlainLargestBlade(PlainDarts):

@@ -1,6 +1,6 @@
 """How a blade grows: maps between material coordinates and positions."""
 
-from vasc.growth.base import Growth, LinearGrowthParameters
+from vasc.growth.base import Deformation, Growth, LinearGrowthParameters, Similarity
 from vasc.growth.isogonic import IsogonicGrowth, IsogonicParameters
 from vasc.growth.marginal import MarginalGrowth, MarginalParameters
 from vasc.growth.none import NoGrowth, NoGrowthParameters
@@ -15,6 +15,7 @@ GROWTHS: dict[str, type[Parameters]] = {
 
 __all__ = [
     "GROWTHS",
+    "Deformation",
     "Growth",
     "IsogonicGrowth",
     "IsogonicParameters",
@@ -23,4 +24,5 @@ __all__ = [
     "MarginalParameters",
     "NoGrowth",
     "NoGrowthParameters",
+    "Similarity",
 ]

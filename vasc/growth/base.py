@@ -9,10 +9,14 @@ from vasc.arrays import Points
 from vasc.domain import Blade
 from vasc.errors import ConfigError
 from vasc.parameters import Parameters, quantity
+from vasc.vasculature import Vasculature
 
 if TYPE_CHECKING:
     from vasc.kernels.polygon import EdgeGrid
 
+
+MARGIN_SPACING = 1.0
+"""Greatest distance of neighbouring points of a deformed outline, in D."""
 
 MOST_STEPS = 1_000_000
 """Greatest number of steps that growth may take."""
@@ -25,34 +29,91 @@ class Growth(ABC):
     ----------
     blade : Blade
         The blade at step 0.
-
-    Notes
-    -----
-    The growths of this base move material points by one scale factor about the
-    attachment, so that their shape never changes and distances in material
-    units are distances in real units over :meth:`scale`.
     """
 
     def __init__(self, blade: Blade) -> None:
         self.blade = blade
-
-    @cached_property
-    def outline(self) -> "EdgeGrid":
-        """The outline at step 0, ready for the question whether a point is inside."""
-        return kernels.polygon.edge_grid(*self.blade.flat)
 
     @property
     @abstractmethod
     def last_step(self) -> int:
         """The last step in which the blade grows, 0 if it never does."""
 
+    @property
+    @abstractmethod
+    def box(self) -> tuple[float, float, float, float]:
+        """A box around all places that nodes and sources ever have: low x, low y, high x, high y.
+
+        Places are measured as the parts of the models do: in material units in a
+        similarity, in D in a deformation.
+        """
+
     @abstractmethod
     def scale(self, step: int) -> float:
-        """Give the size of one material unit of length at a step."""
+        """Give the size of one unit of the places of nodes and sources at a step, in D."""
 
     @abstractmethod
     def outline_scale(self, step: int) -> float:
-        """Give the size of the outline at a step, 1 at step 0."""
+        """Give the size of the outline over that of :meth:`outline` at a step."""
+
+    @abstractmethod
+    def outline(self, step: int) -> "EdgeGrid":
+        """Give the outline for a step, ready for the question whether a point is inside."""
+
+    @abstractmethod
+    def domain(self, step: int) -> Blade:
+        """Give the blade at a step, in real size."""
+
+    @abstractmethod
+    def position(self, material: Points, step: int) -> Points:
+        """Give the positions of material points at a step, shape (n, 2)."""
+
+    @abstractmethod
+    def material(self, position: Points, step: int, near: Points | None = None) -> Points:
+        """Give the material points that are at positions at a step, shape (n, 2).
+
+        ``near`` holds material points close to those that are sought, where some are known.
+        """
+
+    @abstractmethod
+    def embed(
+        self, places: Points, step: int, near: Points | None = None
+    ) -> tuple[Points, Points]:
+        """Give the material points at places at a step, and the positions of those."""
+
+    @abstractmethod
+    def carry(self, veins: Vasculature, step: int) -> None:
+        """Take the places of nodes and sources along to a step."""
+
+    @abstractmethod
+    def affine(self, step: int) -> tuple[float, float] | None:
+        """Give the scales of material points and of the outline; None for a deformation."""
+
+    def time(self, step: int) -> float:
+        """Give the model time of a step, by default in steps."""
+        return float(step)
+
+
+class Similarity(Growth):
+    """A blade whose points move by one scale factor about the attachment.
+
+    Distances in material units are then distances in real units over
+    :meth:`scale`, so that places are material points and nothing is moved.
+    """
+
+    @property
+    def box(self) -> tuple[float, float, float, float]:
+        """The box of the largest blade, in material units."""
+        factor = self.outline_scale(self.last_step) / self.scale(self.last_step)
+        return self.blade.scaled(factor).bounds
+
+    @cached_property
+    def _outline(self) -> "EdgeGrid":
+        return kernels.polygon.edge_grid(*self.blade.flat)
+
+    def outline(self, step: int) -> "EdgeGrid":
+        """Give the outline at step 0."""
+        return self._outline
 
     def domain(self, step: int) -> Blade:
         """Give the blade at a step, in real size."""
@@ -62,12 +123,87 @@ class Growth(ABC):
         """Give the positions of material points at a step, shape (n, 2)."""
         return material * self.scale(step)
 
-    def material(self, position: Points, step: int) -> Points:
+    def material(self, position: Points, step: int, near: Points | None = None) -> Points:
         """Give the material points that are at positions at a step, shape (n, 2)."""
         return position / self.scale(step)
 
+    def embed(
+        self, places: Points, step: int, near: Points | None = None
+    ) -> tuple[Points, Points]:
+        """Give the places themselves, which are material points, and their positions."""
+        return places, places * self.scale(step)
 
-class LinearGrowth(Growth):
+    def carry(self, veins: Vasculature, step: int) -> None:
+        """Do nothing: places are material points."""
+
+    def affine(self, step: int) -> tuple[float, float]:
+        """Give the scales of material points and of the outline."""
+        return self.scale(step), self.outline_scale(step)
+
+
+class Deformation(Growth):
+    """A blade whose points move by a map that is no similarity; places are positions.
+
+    Parameters
+    ----------
+    margin : ndarray of shape (m, 2), float64
+        Material points of the outline in order, first of the attached base; mirror
+        images of each other, and at no step farther apart than ``MARGIN_SPACING``.
+    n_base : int
+        How many points of the outline, the first ones, are the base where the leaf
+        is attached: it is no margin, and no source appears on it.
+    seeds : ndarray of shape (k, 2), float64
+        Material points of the first vein nodes.
+    """
+
+    def __init__(self, margin: Points, n_base: int, seeds: Points) -> None:
+        self.margin = margin
+        self.n_base = n_base
+        self.seeds = seeds
+        self._latest: tuple[int, Blade] | None = None
+        super().__init__(self.domain(0))
+
+    def scale(self, step: int) -> float:
+        """Give 1: places are positions."""
+        return 1.0
+
+    def outline_scale(self, step: int) -> float:
+        """Give 1: every step has an outline of its own."""
+        return 1.0
+
+    def outline(self, step: int) -> "EdgeGrid":
+        """Give the outline at a step."""
+        return self.domain(step).edge_grid
+
+    def domain(self, step: int) -> Blade:
+        """Give the blade at a step; that of the last one asked for is kept."""
+        if self._latest is None or self._latest[0] != step:
+            rings = [self.position(self.margin, step)]
+            self._latest = step, Blade.sound(rings, self.position(self.seeds, step))
+        return self._latest[1]
+
+    def embed(
+        self, places: Points, step: int, near: Points | None = None
+    ) -> tuple[Points, Points]:
+        """Give the material points nearest to places, and their positions.
+
+        Outside the blade these are points of the margin.
+        """
+        material = self.material(places, step, near)
+        return material, self.position(material, step)
+
+    def affine(self, step: int) -> None:
+        """Give None: positions are explicit."""
+
+    def carry(self, veins: Vasculature, step: int) -> None:
+        """Take the places of nodes and sources along to a step."""
+        veins.move(
+            self.position(veins.nodes.view("material"), step),
+            self.position(veins.sources.view("material"), step),
+        )
+
+
+class LinearGrowth(Similarity):
     """A blade whose length increases by the same amount in every step.
 
     Parameters

@@ -3,11 +3,11 @@
 from typing import Literal
 
 from vasc.domain import Blade
-from vasc.growth.base import Growth
+from vasc.growth.base import Similarity
 from vasc.parameters import Parameters
 
 
-class NoGrowth(Growth):
+class NoGrowth(Similarity):
     """Material point = position, and the outline stays."""
 
     @property

@@ -122,7 +122,7 @@ class TaggedArrival(Arrival):
         older, newer = pair
         if veins.is_connected(older, newer):
             return False
-        (ax, ay), (bx, by) = veins.material("nodes")[[older, newer]].tolist()
+        (ax, ay), (bx, by) = veins.places("nodes")[[older, newer]].tolist()
         square = (ax - bx) * (ax - bx) + (ay - by) * (ay - by)
         return bool(square <= (self.join_length / scale) ** 2)
 

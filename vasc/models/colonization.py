@@ -67,6 +67,7 @@ class Colonization(Model):
     def grow(self, veins: Vasculature, step: int) -> Moment:
         """Let the blade grow by one step; stretched veins are refined."""
         moment = Moment.of(self.growth, step)
+        self.growth.carry(veins, step)
         if step == self.growth.last_step:
             veins.log(step, EventKind.GROWTH_ENDED, NULL, NULL)
         if veins.side * moment.scale > 2.0 * self.cell_side():
@@ -95,12 +96,15 @@ class Colonization(Model):
         """Give the state that the tables describe now."""
         if reason is not None:
             veins.log(moment.step, EventKind.RUN_FINISHED, int(reason), NULL)
+        blade = self.growth.domain(moment.step)
+        scales = self.growth.affine(moment.step)
         return State(
             step=moment.step,
-            time=float(moment.step),
-            blade=self.growth.domain(moment.step),
-            motion=affine(moment.scale),
-            outline_motion=affine(moment.outline_scale),
+            time=self.growth.time(moment.step),
+            blade=blade,
+            motion=None if scales is None else affine(scales[0]),
+            outline_motion=None if scales is None else affine(scales[1]),
+            places=veins.moved(blade.rings[0]) if scales is None else None,
             counts=veins.tables.counts(),
             live=veins.live,
             tables=veins.tables,
@@ -112,8 +116,9 @@ class Colonization(Model):
         """Give the state before the first step: the seed nodes alone."""
         veins = self.vasculature(Tables())
         moment = Moment.of(self.growth, 0)
+        self.growth.carry(veins, 0)
         seeds = self.growth.material(self.growth.blade.seeds, 0)
-        veins.seed(seeds, moment.scale)
+        veins.seed(seeds, self.growth.position(seeds, 0))
         self.placement.begin(veins, streams["placement"])
         return self.state(veins, moment, None)
 
@@ -134,6 +139,7 @@ class Colonization(Model):
         self.placement.begin(veins, streams["placement"])
         # The last step is repeated as sources saw it: first the veins they were drawn to,
         # then those that had grown, so that what has changed is known as it was.
+        self.growth.carry(veins, step)
         n_before = veins.restore(step)
         self.perception.look(veins, n_before)
         veins.forget_changes()
@@ -143,15 +149,8 @@ class Colonization(Model):
 
     def vasculature(self, tables: Tables) -> Vasculature:
         """Give the indexes over tables, at the size of the largest blade."""
-        factor = self.growth.outline_scale(self.growth.last_step) / self.growth.scale(
-            self.growth.last_step
-        )
-        low_x, low_y, high_x, high_y = self.growth.blade.scaled(factor).bounds
         return Vasculature(
-            tables,
-            (low_x, low_y, high_x, high_y),
-            self.cell_side(),
-            least_change=self.least_change,
+            tables, self.growth.box, self.cell_side(), least_change=self.least_change
         )
 
     def cell_side(self) -> float:

@@ -40,26 +40,26 @@ class Extension(ABC):
 
     def extend(self, veins: Vasculature, attraction: Attraction, moment: Moment) -> int:
         """Add the new nodes and their segments; gives their number."""
-        parents, material, causes, is_stalled = kernels.extension.children(
+        parents, places, causes, is_stalled = kernels.extension.children(
             attraction.order,
             attraction.pulls,
-            veins.material("nodes"),
-            veins.material("sources"),
+            veins.places("nodes"),
+            veins.places("sources"),
             self.segment_length / moment.scale,
             self.bias[0],
             self.bias[1],
             self.stall_rule,
         )
-        is_allowed = self.allowed(material, moment)
+        is_allowed = self.allowed(places, moment)
         if not is_allowed.all():
-            parents, material = parents[is_allowed], material[is_allowed]
+            parents, places = parents[is_allowed], places[is_allowed]
             causes, is_stalled = causes[is_allowed], is_stalled[is_allowed]
         if len(parents):
-            self._add(veins, moment, parents, material, causes, is_stalled)
+            self._add(veins, moment, parents, places, causes, is_stalled)
         return len(parents)
 
     @abstractmethod
-    def allowed(self, material: Points, moment: Moment) -> NDArray[np.bool_]:
+    def allowed(self, places: Points, moment: Moment) -> NDArray[np.bool_]:
         """Tell which new nodes may come to be."""
 
     @staticmethod
@@ -67,15 +67,16 @@ class Extension(ABC):
         veins: Vasculature,
         moment: Moment,
         parents: Ids,
-        material: Points,
+        places: Points,
         causes: Ids,
         is_stalled: NDArray[np.bool_],
     ) -> None:
         """Append nodes, segments and events."""
         branches = veins.has_child[parents]
         veins.has_child[parents] = True
+        material, positions = moment.embed(places, veins.nodes.arrays["material"][parents])
         rows = veins.add_nodes(
-            moment.step, material, moment.scale, parents, causes, Origin.EXTENSION
+            moment.step, material, positions, parents, causes, Origin.EXTENSION
         )
         children = np.arange(rows.start, rows.stop, dtype=np.int32)
         veins.add_segments(
@@ -92,9 +93,9 @@ class Extension(ABC):
 class FreeExtension(Extension):
     """An extension that may cross the margin, where the blade is concave."""
 
-    def allowed(self, material: Points, moment: Moment) -> NDArray[np.bool_]:
+    def allowed(self, places: Points, moment: Moment) -> NDArray[np.bool_]:
         """Allow all."""
-        return np.ones(len(material), dtype=bool)
+        return np.ones(len(places), dtype=bool)
 
 
 class ConfinedExtension(Extension):
@@ -119,9 +120,9 @@ class ConfinedExtension(Extension):
         super().__init__(segment_length, bias, stall_rule=stall_rule)
         self.growth = growth
 
-    def allowed(self, material: Points, moment: Moment) -> NDArray[np.bool_]:
+    def allowed(self, places: Points, moment: Moment) -> NDArray[np.bool_]:
         """Tell which new nodes are in the blade."""
-        return kernels.polygon.are_inside(self.growth.outline, material, moment.outline_size)
+        return kernels.polygon.are_inside(moment.outline, places, moment.outline_size)
 
 
 class ExtensionParameters(Parameters):

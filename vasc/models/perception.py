@@ -62,8 +62,8 @@ class Perception(ABC):
         veins.reserve_pulls(kernels.perceived.MAX_MEMBERS * len(veins.live))
         n_pulled = kernels.extension.sum_pulls(
             veins.live,
-            veins.material("sources"),
-            veins.material("nodes"),
+            veins.places("sources"),
+            veins.places("nodes"),
             veins.nodes.arrays["parent"],
             veins.nodes.arrays["birth"],
             veins.perceived,
@@ -84,11 +84,11 @@ class NearestPerception(Perception):
         """Let nearer nodes take over."""
         kernels.nearest.update(
             veins.node_grid,
-            veins.material("nodes"),
+            veins.places("nodes"),
             veins.nodes.arrays["parent"],
             start,
             stop,
-            veins.material("sources"),
+            veins.places("sources"),
             known,
             veins.perceived,
         )
@@ -97,8 +97,8 @@ class NearestPerception(Perception):
         """Find the nearest nodes."""
         kernels.nearest.perceive_new(
             veins.node_grid,
-            veins.material("nodes"),
-            veins.material("sources"),
+            veins.places("nodes"),
+            veins.places("sources"),
             born,
             veins.perceived,
         )
@@ -111,11 +111,11 @@ class RelativePerception(Perception):
         """Let new nodes exclude members and become members."""
         kernels.relative_neighbors.update(
             veins.node_grid,
-            veins.material("nodes"),
+            veins.places("nodes"),
             veins.nodes.arrays["parent"],
             start,
             stop,
-            veins.material("sources"),
+            veins.places("sources"),
             known,
             veins.perceived,
         )
@@ -124,8 +124,8 @@ class RelativePerception(Perception):
         """Find the relative neighbours."""
         kernels.relative_neighbors.perceive_new(
             veins.node_grid,
-            veins.material("nodes"),
-            veins.material("sources"),
+            veins.places("nodes"),
+            veins.places("sources"),
             born,
             veins.perceived,
         )
@@ -141,11 +141,11 @@ class UrquhartPerception(Perception):
     def update(self, veins: Vasculature, known: Ids, start: int, stop: int) -> None:
         """Let new nodes cut the Voronoi cells."""
         self._cells = kernels.urquhart.update(
-            veins.material("nodes"),
+            veins.places("nodes"),
             veins.nodes.arrays["parent"],
             start,
             stop,
-            veins.material("sources"),
+            veins.places("sources"),
             known,
             veins.perceived,
             self._cells,
@@ -158,9 +158,9 @@ class UrquhartPerception(Perception):
         low_x, low_y, high_x, high_y = veins.box
         self._cells = kernels.urquhart.perceive_new(
             veins.node_grid,
-            veins.material("nodes"),
+            veins.places("nodes"),
             veins.nodes.arrays["parent"],
-            veins.material("sources"),
+            veins.places("sources"),
             born,
             veins.perceived,
             self._cells,

@@ -64,7 +64,7 @@ class Subdivision(Refinement):
         ids = np.arange(self._n_seen, veins.segments.n_rows, dtype=np.int32)
         self._n_seen = veins.segments.n_rows
         ids = ids[~veins.refined[ids]]
-        ends = veins.material("nodes")[veins.segments.arrays["nodes"][ids]]
+        ends = veins.places("nodes")[veins.segments.arrays["nodes"][ids]]
         lengths = np.sqrt(((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1))
         due = np.searchsorted(self._scales, self.longest / lengths, side="right")
         is_ever = due < len(self._scales)
@@ -76,10 +76,11 @@ class Subdivision(Refinement):
     def _halve(veins: Vasculature, moment: Moment, ids: Ids) -> None:
         """Replace segments by two halves with a new node between them."""
         ends = veins.segments.arrays["nodes"][ids]
-        material = veins.material("nodes")
-        middles = 0.5 * (material[ends[:, 0]] + material[ends[:, 1]])
+        places = veins.places("nodes")
+        middles = 0.5 * (places[ends[:, 0]] + places[ends[:, 1]])
+        near = veins.nodes.arrays["material"][ends[:, 0]]
         rows = veins.add_nodes(
-            moment.step, middles, moment.scale, ends[:, 0], NULL, Origin.REFINEMENT
+            moment.step, *moment.embed(middles, near), ends[:, 0], NULL, Origin.REFINEMENT
         )
         nodes = np.arange(rows.start, rows.stop, dtype=np.int32)
         veins.has_child[nodes] = True

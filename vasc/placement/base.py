@@ -2,11 +2,16 @@
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from vasc.arrays import Points
 from vasc.growth import Growth
 from vasc.vasculature import Vasculature
+
+if TYPE_CHECKING:
+    from vasc.kernels.polygon import EdgeGrid
 
 
 @dataclass(frozen=True)
@@ -15,27 +20,39 @@ class Moment:
 
     Parameters
     ----------
+    growth : Growth
+        The growing blade.
     step : int
         The step being made.
     scale : float
-        Real size of one material unit of length.
+        Real size of one unit of the places of nodes and sources.
     outline_scale : float
         Size of the outline, 1 at step 0.
     """
 
+    growth: Growth
     step: int
     scale: float
     outline_scale: float
 
     @property
+    def outline(self) -> "EdgeGrid":
+        """The outline, at a size of its own."""
+        return self.growth.outline(self.step)
+
+    @property
     def outline_size(self) -> float:
-        """Size of the outline in material coordinates, 1 for the initial outline."""
+        """Size of the outline where nodes and sources have their places, over its own."""
         return self.outline_scale / self.scale
+
+    def embed(self, places: Points, near: Points | None = None) -> tuple[Points, Points]:
+        """Give the material points and the positions of places."""
+        return self.growth.embed(places, self.step, near)
 
     @classmethod
     def of(cls, growth: Growth, step: int) -> "Moment":
         """Give the moment of a step."""
-        return cls(step, growth.scale(step), growth.outline_scale(step))
+        return cls(growth, step, growth.scale(step), growth.outline_scale(step))
 
 
 class Placement(ABC):

@@ -80,18 +80,19 @@ class DartPlacement(Placement):
         n_before = veins.sources.n_rows
         n_after = kernels.darts.throw(
             darts,
-            self.growth.outline,
+            moment.outline,
             moment.outline_size,
             veins.node_grid,
-            veins.material("nodes"),
+            veins.places("nodes"),
             veins.source_grid,
-            veins.material("sources"),
+            veins.places("sources"),
             veins.is_live,
             n_before,
             (self.source_distance / moment.scale) ** 2,
             (self.node_distance / moment.scale) ** 2,
         )
-        veins.add_sources(moment.step, n_after - n_before, moment.scale, Cause.DART)
+        born = veins.new_places(n_after - n_before)
+        veins.add_sources(moment.step, *moment.embed(born), Cause.DART)
 
     def is_over(self, veins: Vasculature, step: int) -> bool:
         """Tell whether no dart is thrown after a step."""
@@ -112,7 +113,7 @@ class DartPlacement(Placement):
         # list of cells depends on nothing but the nodes: a resumed run rebuilds it.
         n_nodes = veins.nodes.n_rows
         kernels.darts.cover(
-            self.cells, veins.material("nodes"), self._n_covering, n_nodes, self._radius
+            self.cells, veins.places("nodes"), self._n_covering, n_nodes, self._radius
         )
         self._n_covering = n_nodes
 

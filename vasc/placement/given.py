@@ -47,9 +47,9 @@ class GivenPlacement(Placement):
         veins.reserve_sources(len(rows))
         start = veins.sources.n_rows
         stop = start + len(rows)
-        veins.material("sources")[start:stop] = self.points[rows] / moment.scale
+        veins.places("sources")[start:stop] = self.points[rows] / moment.scale
         veins.is_live[start:stop] = 1
-        veins.add_sources(moment.step, len(rows), moment.scale, Cause.GIVEN)
+        veins.add_sources(moment.step, *moment.embed(veins.new_places(len(rows))), Cause.GIVEN)
 
     def is_over(self, veins: Vasculature, step: int) -> bool:
         """Tell whether all have appeared."""

@@ -61,7 +61,7 @@ class LargestBladePlacement(Placement):
         if self.is_over(veins, moment.step - 1):
             return
         is_inside = kernels.polygon.are_inside(
-            self.growth.outline, self._waiting, moment.outline_size
+            moment.outline, self._waiting, moment.outline_size
         )
         arriving = np.ascontiguousarray(self._waiting[is_inside])
         self._waiting = self._waiting[~is_inside]
@@ -69,18 +69,19 @@ class LargestBladePlacement(Placement):
         n_before = veins.sources.n_rows
         n_after = kernels.darts.throw(
             arriving,
-            self.growth.outline,
+            moment.outline,
             moment.outline_size,
             veins.node_grid,
-            veins.material("nodes"),
+            veins.places("nodes"),
             veins.source_grid,
-            veins.material("sources"),
+            veins.places("sources"),
             veins.is_live,
             n_before,
             self.source_distance**2,
             self.node_distance**2,
         )
-        veins.add_sources(moment.step, n_after - n_before, moment.scale, Cause.DART)
+        born = veins.new_places(n_after - n_before)
+        veins.add_sources(moment.step, *moment.embed(born), Cause.DART)
 
     def is_over(self, veins: Vasculature, step: int) -> bool:
         """Tell whether the contour stands still after a step."""
