@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vasc.areoles import AREOLE_COLUMNS, BOUNDARY_COLUMNS
 from vasc.arrays import Ids, Points, Table
 from vasc.domain import Blade
 from vasc.events import EVENT_COLUMNS, EventKind
@@ -20,6 +21,8 @@ TABLE_COLUMNS = {
     "sources": SOURCE_COLUMNS,
     "perceived": PERCEIVED_COLUMNS,
     "states": STATE_COLUMNS,
+    "areoles": AREOLE_COLUMNS,
+    "boundaries": BOUNDARY_COLUMNS,
     "events": EVENT_COLUMNS,
 }
 """The append-only tables of a run, in the order of ``State.counts``."""

@@ -10,6 +10,7 @@ class Kind(IntEnum):
 
     NODE = 0
     SOURCE = 1
+    CANAL = 2
 
 
 class SourceState(IntEnum):
@@ -30,6 +31,23 @@ class NodeState(IntEnum):
     """Differentiated vein."""
 
 
+class CanalState(IntEnum):
+    """State of the tissue between a source and one of its relative neighbours."""
+
+    GROUND = 0
+    """Not differentiated; every canal begins so."""
+    PRE_PATTERN = 1
+    """A polarized canal, induced by the source."""
+    INBOUND = 2
+    """Differentiating from the vein toward the source."""
+    OUTBOUND = 3
+    """Differentiating from the drained source toward the vein."""
+    VEIN = 4
+    """Differentiated along its whole length."""
+    ARRESTED = 5
+    """Ended blindly: the last cell stays pre-patterned."""
+
+
 TRANSITIONS: dict[Kind, frozenset[tuple[int, int]]] = {
     Kind.SOURCE: frozenset(
         {
@@ -39,12 +57,34 @@ TRANSITIONS: dict[Kind, frozenset[tuple[int, int]]] = {
         }
     ),
     Kind.NODE: frozenset(),
+    Kind.CANAL: frozenset(
+        {
+            (CanalState.GROUND, CanalState.PRE_PATTERN),
+            (CanalState.PRE_PATTERN, CanalState.INBOUND),
+            (CanalState.PRE_PATTERN, CanalState.OUTBOUND),
+            (CanalState.INBOUND, CanalState.VEIN),
+            (CanalState.OUTBOUND, CanalState.VEIN),
+            (CanalState.OUTBOUND, CanalState.ARRESTED),
+        }
+    ),
 }
 """Legal changes (from, to) of each kind; a birth in the first state is no change."""
 
+
+def check_transition(kind: Kind, before: int, after: int) -> None:
+    """Assert that a change of state is legal.
+
+    Raises
+    ------
+    AssertionError
+        If it is not: the program is wrong, never its input.
+    """
+    assert (before, after) in TRANSITIONS[kind], f"{kind.name}: {before} -> {after} is not legal"
+
+
 STATE_COLUMNS = {
     "step": Column("i4", "step of the change"),
-    "what": Column("i1", "0 node, 1 source"),
-    "id": Column("i4", "row of the node or source"),
+    "what": Column("i1", "0 node, 1 source, 2 canal: a row of perceived"),
+    "id": Column("i4", "row of the node, source or canal"),
     "state": Column("i1", "new state"),
 }

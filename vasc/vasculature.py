@@ -13,7 +13,7 @@ from vasc.events import EventKind
 from vasc.network import Origin, SegmentKind
 from vasc.sources import Cause
 from vasc.state import Places, Tables
-from vasc.states import Kind, SourceState
+from vasc.states import CanalState, Kind, SourceState
 
 CELL_LIMITS = (2.0, 8.0)
 """Least and greatest side of a grid cell, in segment lengths."""
@@ -305,13 +305,15 @@ class Vasculature:
         table.arrays["object"][rows] = objects
         table.n_rows += n_new
 
-    def log_states(self, step: int, ids: Ids, state: SourceState) -> None:
-        """Append changes of state of sources."""
+    def log_states(
+        self, step: int, ids: Ids, state: SourceState | CanalState, what: Kind = Kind.SOURCE
+    ) -> None:
+        """Append changes of state, of sources unless told otherwise."""
         table = self.tables["states"]
         table.reserve(len(ids))
         rows = slice(table.n_rows, table.n_rows + len(ids))
         table.arrays["step"][rows] = step
-        table.arrays["what"][rows] = Kind.SOURCE
+        table.arrays["what"][rows] = what
         table.arrays["id"][rows] = ids
         table.arrays["state"][rows] = state
         table.n_rows += len(ids)

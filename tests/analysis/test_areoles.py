@@ -9,8 +9,9 @@ from reference.halving import extended
 from reference.networks import grid, network, random_planar, random_tree
 
 from vasc.analysis import find_areoles
-from vasc.analysis.faces import face_walks, planar_drawing
+from vasc.analysis.faces import planar_drawing
 from vasc.analysis.topology import count_components, count_cycles
+from vasc.faces import face_walks
 
 seeds = st.integers(0, 2**32 - 1)
 

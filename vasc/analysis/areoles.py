@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vasc.analysis.faces import Drawing, FaceWalks, face_walks, planar_drawing
+from vasc.analysis.faces import planar_drawing
 from vasc.arrays import Floats
+from vasc.faces import Drawing, FaceWalks, face_walks
 from vasc.network import VeinNetwork
 
 

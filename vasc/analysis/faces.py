@@ -1,59 +1,14 @@
-"""Planar drawings: segments cut where they cross, and walks around their faces."""
-
-from dataclasses import dataclass
+"""Vein networks as planar drawings: segments are cut where they cross."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vasc import kernels
-from vasc.arrays import Floats, Ids, Points
+from vasc.faces import Drawing
 from vasc.network import VeinNetwork
 
 MAX_CELLS = 4_000_000
 """Search cells at most, so that a few long segments cannot ask for endless memory."""
-
-
-@dataclass(frozen=True)
-class Drawing:
-    """Points and the segments between them, which meet in these points only.
-
-    Parameters
-    ----------
-    points : ndarray of shape (p, 2), float64
-        No two alike where segments end in them.
-    segments : ndarray of shape (q, 2), int32
-        Rows of the two end points.
-    """
-
-    points: Points
-    segments: Ids
-
-
-@dataclass(frozen=True)
-class FaceWalks:
-    """Every segment walked once along each side; a closed walk goes around a face.
-
-    Parameters
-    ----------
-    starts, ends : ndarray of shape (2q,), int32
-        Points each half-edge goes from and to; its face lies on the left.
-    faces : ndarray of shape (2q,), int32
-        The walk each half-edge belongs to, 0 ... f-1.
-    components : ndarray of shape (f,), int32
-        The connected component each walk goes along.
-    areas : ndarray of shape (f,), float64
-        Area inside each walk; the walk around the outside of a component has
-        the negative of its area.
-    is_outside : ndarray of shape (f,), bool
-        True for the one walk around the outside of each component.
-    """
-
-    starts: Ids
-    ends: Ids
-    faces: Ids
-    components: Ids
-    areas: Floats
-    is_outside: NDArray[np.bool_]
 
 
 def planar_drawing(network: VeinNetwork) -> Drawing:
@@ -85,38 +40,6 @@ def planar_drawing(network: VeinNetwork) -> Drawing:
     return Drawing(unique, segments)
 
 
-def face_walks(drawing: Drawing) -> FaceWalks:
-    """Walk around all faces of a planar drawing.
-
-    Parameters
-    ----------
-    drawing : Drawing
-        At least one segment; see :func:`planar_drawing`.
-
-    Returns
-    -------
-    FaceWalks
-        By Euler's formula q - p + 2c walks for q segments, p points with
-        segments, and c components.
-    """
-    points = drawing.points
-    starts = np.concatenate([drawing.segments[:, 0], drawing.segments[:, 1]])
-    ends = np.concatenate([drawing.segments[:, 1], drawing.segments[:, 0]])
-    vectors = points[ends] - points[starts]
-    around = np.lexsort((np.arctan2(vectors[:, 1], vectors[:, 0]), starts))
-    followers = _followers(starts, around)
-    faces, components = _labels(followers, drawing)
-    n_faces = int(faces.max()) + 1
-    # coordinates relative to the first point keep the sums small
-    a, b = points[starts] - points[0], points[ends] - points[0]
-    twice = np.bincount(faces, a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], minlength=n_faces)
-    of_faces = np.zeros(n_faces, dtype=np.int32)
-    of_faces[faces] = components[starts]
-    is_outside = np.zeros(n_faces, dtype=bool)
-    is_outside[faces[_leftmost(points, starts, components, around)]] = True
-    return FaceWalks(starts, ends, faces, of_faces, twice / 2.0, is_outside)
-
-
 def _cell_side(network: VeinNetwork) -> float:
     """Give a side for search cells: about two segments long, and not too many cells."""
     extent = np.ptp(network.positions, axis=0)
@@ -132,44 +55,3 @@ def _pieces(lines: NDArray[np.float64]) -> NDArray[np.float64]:
     coordinates, owners = shapely.get_coordinates(noded, return_index=True)
     is_inner = owners[1:] == owners[:-1]
     return np.stack([coordinates[:-1][is_inner], coordinates[1:][is_inner]], axis=1)
-
-
-def _followers(starts: Ids, around: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Give each half-edge's next one along its face: the first to the right of turning back."""
-    n_half_edges = len(starts)
-    group = np.r_[0, np.flatnonzero(np.diff(starts[around])) + 1, n_half_edges]
-    clockwise = np.empty(n_half_edges, dtype=np.intp)
-    clockwise[around[1:]] = around[:-1]
-    clockwise[around[group[:-1]]] = around[group[1:] - 1]
-    twins = np.r_[n_half_edges // 2 : n_half_edges, 0 : n_half_edges // 2]
-    return clockwise[twins]
-
-
-def _labels(followers: NDArray[np.intp], drawing: Drawing) -> tuple[Ids, Ids]:
-    """Give a number to every closed walk of half-edges and to every component of points."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    def labels(a: NDArray, b: NDArray, size: int) -> Ids:
-        links = coo_array((np.ones(len(a), dtype=np.int8), (a, b)), shape=(size, size))
-        found: Ids = connected_components(links, directed=False)[1]
-        return found
-
-    faces = labels(np.arange(len(followers)), followers, len(followers))
-    return faces, labels(drawing.segments[:, 0], drawing.segments[:, 1], len(drawing.points))
-
-
-def _leftmost(
-    points: Points, starts: Ids, components: Ids, around: NDArray[np.intp]
-) -> NDArray[np.intp]:
-    """Give a half-edge of each component with the outside on its left.
-
-    Around the leftmost (then lowest) point of a component all half-edges go to
-    the right; the last of them, counterclockwise, has the outside on its left.
-    """
-    at = starts[around]
-    last = around[np.r_[np.flatnonzero(np.diff(at)), len(at) - 1]]
-    owners = components[starts[last]]
-    x, y = points[starts[last]].T
-    rows = np.lexsort((y, x, owners))
-    return last[rows[np.r_[True, np.diff(owners[rows]) != 0]]]

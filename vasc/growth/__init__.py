@@ -1,7 +1,14 @@
 """How a blade grows: maps between material coordinates and positions."""
 
-from vasc.growth.base import Deformation, Growth, LinearGrowthParameters, Similarity
+from vasc.growth.base import (
+    MARGIN_SPACING,
+    Deformation,
+    Growth,
+    LinearGrowthParameters,
+    Similarity,
+)
 from vasc.growth.isogonic import IsogonicGrowth, IsogonicParameters
+from vasc.growth.keyframed import KeyframedGrowth, KeyframedParameters
 from vasc.growth.marginal import MarginalGrowth, MarginalParameters
 from vasc.growth.none import NoGrowth, NoGrowthParameters
 from vasc.parameters import Parameters
@@ -10,15 +17,19 @@ GROWTHS: dict[str, type[Parameters]] = {
     "none": NoGrowthParameters,
     "marginal": MarginalParameters,
     "isogonic": IsogonicParameters,
+    "keyframed": KeyframedParameters,
 }
 """Parameters of our growths by kind; configs know installed ones, too."""
 
 __all__ = [
     "GROWTHS",
+    "MARGIN_SPACING",
     "Deformation",
     "Growth",
     "IsogonicGrowth",
     "IsogonicParameters",
+    "KeyframedGrowth",
+    "KeyframedParameters",
     "LinearGrowthParameters",
     "MarginalGrowth",
     "MarginalParameters",

@@ -4,8 +4,10 @@ from abc import ABC, abstractmethod
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from vasc import kernels
-from vasc.arrays import Points
+from vasc.arrays import Floats, Ids, Points
 from vasc.domain import Blade
 from vasc.errors import ConfigError
 from vasc.parameters import Parameters, quantity
@@ -30,6 +32,9 @@ class Growth(ABC):
     blade : Blade
         The blade at step 0.
     """
+
+    n_base: int = 1
+    """How many points of the margin, the first ones, are the base."""
 
     def __init__(self, blade: Blade) -> None:
         self.blade = blade
@@ -63,6 +68,17 @@ class Growth(ABC):
     @abstractmethod
     def domain(self, step: int) -> Blade:
         """Give the blade at a step, in real size."""
+
+    @abstractmethod
+    def margin_places(self, step: int) -> Points:
+        """Give the places of points of the margin, ``MARGIN_SPACING`` apart at most, shape (m, 2).
+
+        The first :attr:`n_base` are the base where the leaf is attached.
+        """
+
+    @abstractmethod
+    def along_margin(self, rows: Ids, shares: Floats, step: int) -> tuple[Points, Points]:
+        """Give material points and places between points of the margin and those that follow."""
 
     @abstractmethod
     def position(self, material: Points, step: int) -> Points:
@@ -118,6 +134,30 @@ class Similarity(Growth):
     def domain(self, step: int) -> Blade:
         """Give the blade at a step, in real size."""
         return self.blade.scaled(self.outline_scale(step))
+
+    @cached_property
+    def _margin(self) -> Points:
+        """Points of the outline at step 0, near enough to each other at every size."""
+        spacing = MARGIN_SPACING / self.outline_scale(self.last_step)
+        parts = []
+        for ring in self.blade.rings:
+            ends = np.concatenate([ring, ring[:1]])
+            numbers = np.ceil(np.sqrt((np.diff(ends, axis=0) ** 2).sum(axis=1)) / spacing)
+            rows = np.repeat(np.arange(len(ring)), np.maximum(numbers, 1).astype(int))
+            shares = np.concatenate([np.arange(n) / n for n in np.maximum(numbers, 1)])
+            parts.append(ends[rows] + shares[:, None] * (ends[rows + 1] - ends[rows]))
+        return np.concatenate(parts)
+
+    def margin_places(self, step: int) -> Points:
+        """Give the places of points of the margin, shape (m, 2)."""
+        return self._margin * (self.outline_scale(step) / self.scale(step))
+
+    def along_margin(self, rows: Ids, shares: Floats, step: int) -> tuple[Points, Points]:
+        """Give material points, which are places, between points of the margin."""
+        margin = self.margin_places(step)
+        first, second = margin[rows], margin[(rows + 1) % len(margin)]
+        places = first + shares[:, None] * (second - first)
+        return places, places
 
     def position(self, material: Points, step: int) -> Points:
         """Give the positions of material points at a step, shape (n, 2)."""
@@ -181,6 +221,16 @@ class Deformation(Growth):
             rings = [self.position(self.margin, step)]
             self._latest = step, Blade.sound(rings, self.position(self.seeds, step))
         return self._latest[1]
+
+    def margin_places(self, step: int) -> Points:
+        """Give the positions of points of the margin, shape (m, 2)."""
+        return self.domain(step).rings[0]
+
+    def along_margin(self, rows: Ids, shares: Floats, step: int) -> tuple[Points, Points]:
+        """Give material points and positions between points of the margin."""
+        first, second = self.margin[rows], self.margin[(rows + 1) % len(self.margin)]
+        material = (1.0 - shares[:, None]) * first + shares[:, None] * second
+        return material, self.position(material, step)
 
     def embed(
         self, places: Points, step: int, near: Points | None = None

@@ -29,6 +29,10 @@ class Arrival(ABC):
     def reach(self, veins: Vasculature, moment: Moment) -> int:
         """Remove the sources reached in this step; gives the number of changes of state."""
 
+    def is_awaiting(self) -> bool:
+        """Tell whether veins are under way to where no source is; by default none is."""
+        return False
+
     @staticmethod
     def remove(veins: Vasculature, step: int, reached: Ids, is_joined: np.ndarray) -> None:
         """Let reached sources die, and note which veins ended at them alone."""

@@ -1,6 +1,7 @@
 """Space colonization: the sentence that all its models share (Runions 2008, section 4.2.3)."""
 
 from dataclasses import dataclass
+from typing import Generic
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from vasc.growth import Growth
 from vasc.models.arrival import Arrival
 from vasc.models.base import Model
 from vasc.models.extension import Extension
-from vasc.models.perception import Perception
+from vasc.models.perception import A, Perception
 from vasc.models.refinement import Refinement
 from vasc.placement import Moment, Placement
 from vasc.state import State, Tables, affine
@@ -19,7 +20,7 @@ from vasc.vasculature import Vasculature
 
 
 @dataclass(frozen=True)
-class Colonization(Model):
+class Colonization(Model, Generic[A]):
     """Veins that colonize a growing blade, drawn by auxin sources.
 
     Parameters
@@ -35,8 +36,8 @@ class Colonization(Model):
     growth: Growth
     refinement: Refinement
     placement: Placement
-    perception: Perception
-    extension: Extension
+    perception: Perception[A]
+    extension: Extension[A]
     arrival: Arrival
     last_step: int | None
     least_change: int
@@ -46,7 +47,7 @@ class Colonization(Model):
         veins = self.veins_of(state)
 
         # grow: the blade expands and carries veins and sources with it
-        moment = self.grow(veins, state.step + 1)
+        moment = self.grow(veins, state.step + 1, streams)
 
         # place: new sources appear where veins and sources leave room
         self.placement.place(veins, moment, streams["placement"])
@@ -64,7 +65,7 @@ class Colonization(Model):
         # record: the state is a view of what there is now
         return self.state(veins, moment, self.reason_to_stop(veins, moment, n_extended, n_reached))
 
-    def grow(self, veins: Vasculature, step: int) -> Moment:
+    def grow(self, veins: Vasculature, step: int, streams: Streams) -> Moment:
         """Let the blade grow by one step; stretched veins are refined."""
         moment = Moment.of(self.growth, step)
         self.growth.carry(veins, step)
@@ -72,7 +73,8 @@ class Colonization(Model):
             veins.log(step, EventKind.GROWTH_ENDED, NULL, NULL)
         if veins.side * moment.scale > 2.0 * self.cell_side():
             veins.regrid(self.cell_side() / moment.scale, veins.nodes.n_rows)
-        self.refinement.refine(veins, moment)
+        cuts = self.refinement.refine(veins, moment, self.perception.held(veins), streams)
+        self.perception.follow(veins, moment, cuts)
         return moment
 
     def reason_to_stop(
@@ -81,12 +83,12 @@ class Colonization(Model):
         """Give the reason why a run ends after a step, or None when it goes on."""
         step = moment.step
         if step >= self.growth.last_step and self.placement.is_over(veins, step):
-            if len(veins.live) == 0:
+            if len(veins.live) == 0 and not self.arrival.is_awaiting():
                 return StopReason.NO_SOURCES
             if n_extended == 0 and n_reached == 0:
                 return StopReason.NOTHING_PULLED
             # No set changed and no source died: the next step would add the same nodes again.
-            if n_reached == 0 and not veins.perceived.change[veins.live].any():
+            if n_reached == 0 and self.perception.is_stuck(veins):
                 return StopReason.LIVELOCK
         if self.last_step is not None and step >= self.last_step:
             return StopReason.STEP_LIMIT

@@ -1,7 +1,7 @@
 """Extension: every attracted node grows one segment toward its sources."""
 
 from abc import ABC, abstractmethod
-from typing import Literal
+from typing import Generic, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,14 +10,27 @@ from vasc import kernels
 from vasc.arrays import Ids, Points
 from vasc.events import EventKind
 from vasc.growth import Growth
-from vasc.models.perception import Attraction
+from vasc.models.perception import A, Attraction
 from vasc.network import Origin, SegmentKind
 from vasc.parameters import Parameters, quantity
 from vasc.placement import Moment
 from vasc.vasculature import Vasculature
 
 
-class Extension(ABC):
+class Extension(ABC, Generic[A]):
+    """How veins grow by one segment."""
+
+    @abstractmethod
+    def extend(self, veins: Vasculature, attraction: A, moment: Moment) -> int:
+        """Add the new nodes and their segments; gives their number."""
+
+    @property
+    @abstractmethod
+    def segment_length(self) -> float:
+        """Length of a new segment, D."""
+
+
+class PulledExtension(Extension[Attraction]):
     """Adds one node to every attracted node, in the mean direction of its sources.
 
     Parameters
@@ -34,9 +47,14 @@ class Extension(ABC):
     def __init__(
         self, segment_length: float, bias: tuple[float, float], *, stall_rule: bool
     ) -> None:
-        self.segment_length = segment_length
+        self._segment_length = segment_length
         self.bias = bias
         self.stall_rule = stall_rule
+
+    @property
+    def segment_length(self) -> float:
+        """Length of a new segment, D."""
+        return self._segment_length
 
     def extend(self, veins: Vasculature, attraction: Attraction, moment: Moment) -> int:
         """Add the new nodes and their segments; gives their number."""
@@ -90,7 +108,7 @@ class Extension(ABC):
             )
 
 
-class FreeExtension(Extension):
+class FreeExtension(PulledExtension):
     """An extension that may cross the margin, where the blade is concave."""
 
     def allowed(self, places: Points, moment: Moment) -> NDArray[np.bool_]:
@@ -98,7 +116,7 @@ class FreeExtension(Extension):
         return np.ones(len(places), dtype=bool)
 
 
-class ConfinedExtension(Extension):
+class ConfinedExtension(PulledExtension):
     """An extension that never leaves the blade: a node beyond the margin is not made.
 
     Parameters
@@ -106,7 +124,7 @@ class ConfinedExtension(Extension):
     growth : Growth
         The growing blade.
     segment_length, bias, stall_rule
-        As for :class:`Extension`.
+        As for :class:`PulledExtension`.
     """
 
     def __init__(
@@ -148,7 +166,7 @@ class ExtensionParameters(Parameters):
         default=True,
     )
 
-    def extension(self, growth: Growth) -> Extension:
+    def extension(self, growth: Growth) -> PulledExtension:
         """Give the extension for a growing blade."""
         if self.kind == "confined":
             return ConfinedExtension(

@@ -1,16 +1,52 @@
 """Perception: which vein nodes each source attracts."""
 
 from abc import ABC, abstractmethod
-from typing import Literal, NamedTuple
+from collections.abc import Sequence
+from typing import Generic, Literal, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vasc import kernels
-from vasc.arrays import Ids
+from vasc.arrays import NULL, Ids
 from vasc.parameters import Parameters, quantity
 from vasc.placement import Moment
 from vasc.vasculature import Vasculature
+
+
+A = TypeVar("A")
+"""What an extension needs to know of a perception."""
+
+
+class Cut(NamedTuple):
+    """A node that refinement has replaced by two."""
+
+    node: int
+    first: int
+    second: int
+
+
+class Perception(ABC, Generic[A]):
+    """What nodes perceive of sources."""
+
+    @abstractmethod
+    def look(self, veins: Vasculature, n_nodes: int) -> None:
+        """Bring what is perceived up to date with the first ``n_nodes`` nodes."""
+
+    @abstractmethod
+    def perceive(self, veins: Vasculature, moment: Moment) -> A:
+        """Give what veins extend toward in this step."""
+
+    @abstractmethod
+    def is_stuck(self, veins: Vasculature) -> bool:
+        """Tell whether the next step would do what this one did, if no source dies."""
+
+    @abstractmethod
+    def held(self, veins: Vasculature) -> Ids:
+        """Give the nodes that refinement must not replace."""
+
+    def follow(self, veins: Vasculature, moment: Moment, cuts: Sequence[Cut]) -> None:
+        """Take note of nodes that refinement has replaced; by default nothing."""
 
 
 class Attraction(NamedTuple):
@@ -21,7 +57,7 @@ class Attraction(NamedTuple):
     """Rows of ``pulls`` in ascending node id."""
 
 
-class Perception(ABC):
+class AttractingPerception(Perception[Attraction]):
     """Keeps, for every source, the set of nodes it attracts.
 
     Parameters
@@ -37,6 +73,7 @@ class Perception(ABC):
         self.influence_radius = np.inf if influence_radius is None else influence_radius
         self._n_nodes = 0
         self._n_sources = 0
+        self._n_moves = 0
 
     @abstractmethod
     def update(self, veins: Vasculature, known: Ids, start: int, stop: int) -> None:
@@ -49,11 +86,39 @@ class Perception(ABC):
     def look(self, veins: Vasculature, n_nodes: int) -> None:
         """Bring all sets up to date with the first ``n_nodes`` nodes."""
         n_known = int(np.searchsorted(veins.live, self._n_sources))
-        if n_known and n_nodes > self._n_nodes:
+        if veins.n_moves != self._n_moves:
+            self._perceive_again(veins, veins.live[:n_known])
+            self._n_moves = veins.n_moves
+        elif n_known and n_nodes > self._n_nodes:
             self.update(veins, veins.live[:n_known], self._n_nodes, n_nodes)
         if n_known < len(veins.live):
             self.perceive_new(veins, veins.live[n_known:])
         self._n_nodes, self._n_sources = n_nodes, veins.sources.n_rows
+
+    def _perceive_again(self, veins: Vasculature, known: Ids) -> None:
+        """Find the sets of known sources anew, after all distances have changed."""
+        if len(known) == 0:
+            return
+        sets = veins.perceived
+        members, change = sets.members[known], sets.change[known]
+        previous, n_previous = sets.previous[known], sets.n_previous[known]
+        sets.members[known] = NULL
+        self.perceive_new(veins, known)
+        is_same = (sets.members[known] == members).all(axis=1)
+        sets.change[known] = np.where(is_same, change, kernels.perceived.OTHER_VEINS)
+        sets.previous[known] = np.where(is_same[:, None], previous, members)
+        sets.n_previous[known] = np.where(is_same, n_previous, (members >= 0).sum(axis=1))
+
+    def is_stuck(self, veins: Vasculature) -> bool:
+        """Tell whether no set has changed, so that the same nodes would be added again."""
+        return not veins.perceived.change[veins.live].any()
+
+    def held(self, veins: Vasculature) -> Ids:
+        """Give the nodes that sources attract or wait for."""
+        nodes = np.concatenate(
+            [veins.perceived.members[veins.live].ravel(), veins.tags.nodes[veins.live].ravel()]
+        )
+        return np.unique(nodes[nodes >= 0]).astype(np.int32)
 
     def perceive(self, veins: Vasculature, moment: Moment) -> Attraction:
         """Give the pulls of all sources on the nodes they attract."""
@@ -77,7 +142,7 @@ class Perception(ABC):
         return Attraction(veins.pulls, order)
 
 
-class NearestPerception(Perception):
+class NearestPerception(AttractingPerception):
     """A source attracts the nearest node (open venation, section 4.2)."""
 
     def update(self, veins: Vasculature, known: Ids, start: int, stop: int) -> None:
@@ -104,7 +169,7 @@ class NearestPerception(Perception):
         )
 
 
-class RelativePerception(Perception):
+class RelativePerception(AttractingPerception):
     """A source attracts its relative neighbours (closed venation, equations 4.1 and 4.2)."""
 
     def update(self, veins: Vasculature, known: Ids, start: int, stop: int) -> None:
@@ -131,7 +196,7 @@ class RelativePerception(Perception):
         )
 
 
-class UrquhartPerception(Perception):
+class UrquhartPerception(AttractingPerception):
     """A source attracts its Urquhart neighbours, an approximation (section 4.4.2, Figure 4.13)."""
 
     def __init__(self, kill_distance: float, influence_radius: float | None) -> None:
@@ -185,7 +250,7 @@ class NearestParameters(PerceptionParameters):
 
     kind: Literal["nearest"] = "nearest"
 
-    def perception(self, kill_distance: float) -> Perception:
+    def perception(self, kill_distance: float) -> AttractingPerception:
         """Give the perception."""
         return NearestPerception(kill_distance, self.influence_radius)
 
@@ -195,7 +260,7 @@ class RelativeParameters(PerceptionParameters):
 
     kind: Literal["relative"] = "relative"
 
-    def perception(self, kill_distance: float) -> Perception:
+    def perception(self, kill_distance: float) -> AttractingPerception:
         """Give the perception."""
         return RelativePerception(kill_distance, self.influence_radius)
 
@@ -205,6 +270,6 @@ class UrquhartParameters(PerceptionParameters):
 
     kind: Literal["urquhart"] = "urquhart"
 
-    def perception(self, kill_distance: float) -> Perception:
+    def perception(self, kill_distance: float) -> AttractingPerception:
         """Give the perception."""
         return UrquhartPerception(kill_distance, self.influence_radius)

@@ -1,6 +1,7 @@
 """Refinement: segments that growth has stretched are halved."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
@@ -8,9 +9,11 @@ import numpy as np
 from vasc.arrays import NULL, Ids
 from vasc.events import EventKind
 from vasc.growth import Growth
+from vasc.models.perception import Cut
 from vasc.network import Origin, SegmentKind
 from vasc.parameters import Parameters, quantity
 from vasc.placement import Moment
+from vasc.streams import Streams
 from vasc.vasculature import Vasculature
 
 
@@ -18,16 +21,23 @@ class Refinement(ABC):
     """Keeps the veins fine enough while the blade grows."""
 
     @abstractmethod
-    def refine(self, veins: Vasculature, moment: Moment) -> int:
-        """Refine what growth has stretched in this step; gives the number of new nodes."""
+    def refine(
+        self, veins: Vasculature, moment: Moment, held: Ids, streams: Streams
+    ) -> Sequence[Cut]:
+        """Refine what growth has stretched in this step; gives the nodes that were replaced.
+
+        Nodes that are ``held`` stay.
+        """
 
 
 class NoRefinement(Refinement):
     """Segments stay what they are."""
 
-    def refine(self, veins: Vasculature, moment: Moment) -> int:
+    def refine(
+        self, veins: Vasculature, moment: Moment, held: Ids, streams: Streams
+    ) -> Sequence[Cut]:
         """Do nothing."""
-        return 0
+        return ()
 
 
 class Subdivision(Refinement):
@@ -50,14 +60,15 @@ class Subdivision(Refinement):
         self._due: dict[int, list[Ids]] = {}
         self._n_seen = 0
 
-    def refine(self, veins: Vasculature, moment: Moment) -> int:
+    def refine(
+        self, veins: Vasculature, moment: Moment, held: Ids, streams: Streams
+    ) -> Sequence[Cut]:
         """Halve the segments that are due, and the halves again if need be."""
-        n_before = veins.nodes.n_rows
         self._watch(veins, moment.step - 1)
         while (due := self._due.pop(moment.step, None)) is not None:
-            self._halve(veins, moment, np.concatenate(due))
+            halve(veins, moment, np.concatenate(due))
             self._watch(veins, moment.step - 1)
-        return veins.nodes.n_rows - n_before
+        return ()
 
     def _watch(self, veins: Vasculature, step: int) -> None:
         """Note when each new segment will be too long, in the next step at the soonest."""
@@ -72,22 +83,22 @@ class Subdivision(Refinement):
         for moment in np.unique(due).tolist():
             self._due.setdefault(moment, []).append(ids[is_ever][due == moment])
 
-    @staticmethod
-    def _halve(veins: Vasculature, moment: Moment, ids: Ids) -> None:
-        """Replace segments by two halves with a new node between them."""
-        ends = veins.segments.arrays["nodes"][ids]
-        places = veins.places("nodes")
-        middles = 0.5 * (places[ends[:, 0]] + places[ends[:, 1]])
-        near = veins.nodes.arrays["material"][ends[:, 0]]
-        rows = veins.add_nodes(
-            moment.step, *moment.embed(middles, near), ends[:, 0], NULL, Origin.REFINEMENT
-        )
-        nodes = np.arange(rows.start, rows.stop, dtype=np.int32)
-        veins.has_child[nodes] = True
-        halves = np.stack([ends[:, 0], nodes, nodes, ends[:, 1]], axis=1).reshape(-1, 2)
-        veins.add_segments(moment.step, halves, SegmentKind.REFINEMENT)
-        veins.refined[ids] = True
-        veins.log(moment.step, EventKind.SEGMENT_REFINED, ids, nodes)
+
+def halve(veins: Vasculature, moment: Moment, ids: Ids) -> None:
+    """Replace segments by two halves with a new node between them."""
+    ends = veins.segments.arrays["nodes"][ids]
+    places = veins.places("nodes")
+    middles = 0.5 * (places[ends[:, 0]] + places[ends[:, 1]])
+    near = veins.nodes.arrays["material"][ends[:, 0]]
+    rows = veins.add_nodes(
+        moment.step, *moment.embed(middles, near), ends[:, 0], NULL, Origin.REFINEMENT
+    )
+    nodes = np.arange(rows.start, rows.stop, dtype=np.int32)
+    veins.has_child[nodes] = True
+    halves = np.stack([ends[:, 0], nodes, nodes, ends[:, 1]], axis=1).reshape(-1, 2)
+    veins.add_segments(moment.step, halves, SegmentKind.REFINEMENT)
+    veins.refined[ids] = True
+    veins.log(moment.step, EventKind.SEGMENT_REFINED, ids, nodes)
 
 
 class NoRefinementParameters(Parameters):
