@@ -128,7 +128,7 @@ def run(
     """
     started = time.perf_counter()
     parameters = experiment.parameters
-    model, streams = parameters.model(experiment.folder), Streams(parameters.seed)
+    model, streams = parameters.model(experiment.folder), Streams(parameters.seed, parameters.stream_names)
     state = model.initial_state(streams)
     units = parameters.units
     recorder = Recorder.create(

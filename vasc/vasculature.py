@@ -53,6 +53,8 @@ class Vasculature:
         Per source: the nodes that perceive it, and the veins it waits for.
     is_retired : ndarray of bool
         Per node: whether refinement has replaced it.
+    has_cuts : bool
+        Whether any has been.
     n_moves : int
         How often the places of nodes and sources have changed.
     """
@@ -75,6 +77,7 @@ class Vasculature:
         n_nodes, n_sources = self.nodes.capacity, self.sources.capacity
         self.has_child = np.zeros(n_nodes, dtype=bool)
         self.is_retired = np.zeros(n_nodes, dtype=bool)
+        self.has_cuts = False
         self.n_moves = 0
         self._moved: dict[str, Points] = {}
         self.refined = np.zeros(self.segments.capacity, dtype=bool)
@@ -124,6 +127,7 @@ class Vasculature:
     def retire(self, step: int, nodes: Ids) -> None:
         """Take nodes that refinement has replaced out of the veins."""
         self.is_retired[nodes] = True
+        self.has_cuts = True
         self.log(step, EventKind.NODE_RETIRED, nodes, NULL)
         self.regrid(self.side, self.nodes.n_rows)
 
@@ -179,6 +183,7 @@ class Vasculature:
         self.trees[: nodes.n_rows] = _roots(parents)
         kinds, subjects = events.view("kind"), events.view("subject")
         self.is_retired[subjects[kinds == EventKind.NODE_RETIRED]] = True
+        self.has_cuts = bool(self.is_retired.any())
         self.refined[subjects[kinds == EventKind.SEGMENT_REFINED]] = True
         for row in np.flatnonzero(self.segments.view("kind") == SegmentKind.JOIN).tolist():
             self._connect(tuple(self.segments.view("nodes")[row].tolist()))
@@ -269,19 +274,24 @@ class Vasculature:
 
     def is_connected(self, older: int, newer: int) -> bool:
         """Tell whether a segment runs between two nodes."""
+        if self.has_cuts:
+            # a segment may be the outcome of a cut, and parent and child be separated by one
+            live = self.segments.view("nodes")[~self.refined[: self.segments.n_rows]]
+            return bool(((live == (older, newer)) | (live == (newer, older))).all(axis=1).any())
         parents = self.nodes.arrays["parent"]
         return parents[newer] == older or (older, newer) in self.joins
 
-    def join(self, step: int, pair: tuple[int, int], source: int) -> None:
-        """Connect two veins that met at a source, and note the loop if that closes one."""
+    def join(self, step: int, pair: tuple[int, int], source: int) -> int:
+        """Connect two veins that met, and note the loop if that closes one; gives the segment."""
         row = self.add_segments(step, np.array([pair], dtype=np.int32), SegmentKind.JOIN).start
         self.log(step, EventKind.VEIN_JOINED, row, source)
         if self._connect(pair):
             self.log(step, EventKind.LOOP_CLOSED, row, source)
+        return row
 
     def _connect(self, pair: tuple[int, int]) -> bool:
         """Note that two nodes are joined; tells whether they were connected already."""
-        self.joins.add(pair)
+        self.joins.add((min(pair), max(pair)))
         older, newer = self._tree(pair[0]), self._tree(pair[1])
         self.merged[max(older, newer)] = min(older, newer)
         return older == newer

@@ -1,5 +1,6 @@
 """Models of vascular development: each a choice of parts for one sentence."""
 
+from vasc.models.areole import AreoleVenation
 from vasc.models.base import Model, Venation
 from vasc.models.closed import ClosedVenation
 from vasc.models.open import OpenVenation
@@ -8,7 +9,8 @@ from vasc.parameters import Parameters
 MODELS: dict[str, type[Parameters]] = {
     "open": OpenVenation,
     "closed": ClosedVenation,
+    "areole": AreoleVenation,
 }
 """Configs of our models by kind; ``vasc.config`` knows installed ones, too."""
 
-__all__ = ["MODELS", "ClosedVenation", "Model", "OpenVenation", "Venation"]
+__all__ = ["MODELS", "AreoleVenation", "ClosedVenation", "Model", "OpenVenation", "Venation"]

@@ -9,16 +9,19 @@ from pydantic import Field, model_validator
 from vasc import kernels
 from vasc.domain import BladeParameters
 from vasc.growth import (
+    Growth,
     IsogonicParameters,
+    KeyframedParameters,
     LinearGrowthParameters,
     MarginalParameters,
     NoGrowthParameters,
 )
 from vasc.models.arrival import ArrivalParameters
+from vasc.models.corner_cutting import CornerCuttingParameters
 from vasc.models.extension import ExtensionParameters
 from vasc.models.refinement import NoRefinementParameters, SubdivisionParameters
 from vasc.parameters import Parameters, quantity
-from vasc.placement import DartParameters, GivenParameters
+from vasc.placement import DartParameters, EmptyCircleParameters, GivenParameters, Placement
 from vasc.state import State, Tables
 from vasc.streams import Streams
 
@@ -44,11 +47,15 @@ class Model(ABC):
 
 
 AnyGrowth = Annotated[
-    NoGrowthParameters | MarginalParameters | IsogonicParameters, Field(discriminator="kind")
+    NoGrowthParameters | MarginalParameters | IsogonicParameters | KeyframedParameters,
+    Field(discriminator="kind"),
 ]
-AnyPlacement = Annotated[DartParameters | GivenParameters, Field(discriminator="kind")]
+AnyPlacement = Annotated[
+    DartParameters | GivenParameters | EmptyCircleParameters, Field(discriminator="kind")
+]
 AnyRefinement = Annotated[
-    NoRefinementParameters | SubdivisionParameters, Field(discriminator="kind")
+    NoRefinementParameters | SubdivisionParameters | CornerCuttingParameters,
+    Field(discriminator="kind"),
 ]
 
 
@@ -106,10 +113,12 @@ class Venation(Parameters):
     title: str = quantity("One sentence on the experiment.", default="")
     reference: str = quantity("The figure or paper it follows.", default="")
     seed: int = quantity("Seed of all randomness.", default=1, ge=0, lt=2**63)
-    domain: BladeParameters
+    domain: BladeParameters | None = quantity(
+        "The blade at step 0; none where key-frames tell it.", default=None
+    )
     growth: AnyGrowth = quantity("How the blade grows.", default=NoGrowthParameters())
     placement: AnyPlacement = quantity("Where sources appear.")
-    extension: ExtensionParameters = quantity("How veins extend.", default=ExtensionParameters())
+    extension: Any
     arrival: ArrivalParameters = quantity("When sources are reached.")
     refinement: AnyRefinement = quantity(
         "What becomes of stretched segments.", default=NoRefinementParameters()
@@ -135,7 +144,14 @@ class Venation(Parameters):
     def _check_growth(self) -> "Venation":
         """Refuse a blade that would have to shrink, and placements that need marginal growth."""
         growth, placement = self.growth, self.placement
-        if isinstance(growth, LinearGrowthParameters) and (
+        if isinstance(growth, KeyframedParameters) != (self.domain is None):
+            raise ValueError(
+                "domain: key-frames tell the blade, so that growth.kind = 'keyframed' allows no"
+                " [domain]"
+                if self.domain
+                else f"domain is missing; growth.kind = {growth.kind!r} needs it"
+            )
+        if isinstance(growth, LinearGrowthParameters) and self.domain and (
             growth.final_length < self.domain.length
         ):
             raise ValueError(
@@ -168,24 +184,46 @@ class Venation(Parameters):
 
     def parts(self, folder: Path) -> dict[str, Any]:
         """Give the parts of the sentence that do not depend on the kind of venation."""
-        growth = self.growth.growth(self.domain.blade(folder))
+        if isinstance(self.growth, KeyframedParameters):
+            growth: Growth = self.growth.growth()
+        else:
+            assert self.domain is not None, "checked"
+            growth = self.growth.growth(self.domain.blade(folder))
         kill, length = self.arrival.kill_distance, self.extension.segment_length
         placement = self.placement
-        if isinstance(placement, DartParameters):
-            birth_distance = placement.birth_distance_veins
-            placed = placement.placement(growth, kill)
+        birth_distance = float("inf")
+        if isinstance(placement, GivenParameters):
+            placed: Placement = placement.placement(growth, kill, folder)
         else:
-            birth_distance = float("inf")
-            placed = placement.placement(growth, kill, folder)
+            placed = placement.placement(growth, kill)
+            if isinstance(placement, DartParameters):
+                birth_distance = placement.birth_distance_veins
         return {
             "growth": growth,
             "placement": placed,
-            "extension": self.extension.extension(growth),
             "refinement": self.refinement.refinement(growth, birth_distance, length),
             "last_step": self.stop.steps,
             "least_change": self.record.least_change,
         }
 
+    @property
+    def stream_names(self) -> tuple[str, ...]:
+        """Names of the processes that draw random numbers."""
+        refinement = self.refinement
+        is_jittered = isinstance(refinement, CornerCuttingParameters) and refinement.jitter > 0.0
+        return ("placement", "refinement") if is_jittered else ("placement",)
+
     @abstractmethod
     def model(self, folder: Path = Path()) -> Model:
         """Give the model; files are looked for in ``folder``."""
+
+
+class PulledVenation(Venation):
+    """What open and closed venation have in common: sources pull veins."""
+
+    extension: ExtensionParameters = quantity("How veins extend.", default=ExtensionParameters())
+
+    def parts(self, folder: Path) -> dict[str, Any]:
+        """Give the parts of the sentence that do not depend on what sources attract."""
+        parts = super().parts(folder)
+        return {**parts, "extension": self.extension.extension(parts["growth"])}

@@ -6,15 +6,15 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from vasc.models.arrival import TaggedArrival
-from vasc.models.base import Venation
+from vasc.models.base import PulledVenation
 from vasc.models.colonization import Colonization
-from vasc.models.perception import RelativeParameters, UrquhartParameters
+from vasc.models.perception import Attraction, RelativeParameters, UrquhartParameters
 from vasc.parameters import quantity
 
 AnyPerception = Annotated[RelativeParameters | UrquhartParameters, Field(discriminator="kind")]
 
 
-class ClosedVenation(Venation):
+class ClosedVenation(PulledVenation):
     """Each source attracts its relative neighbours and dies when all awaited have arrived."""
 
     kind: Literal["closed"] = "closed"
@@ -22,7 +22,7 @@ class ClosedVenation(Venation):
         "Which nodes a source attracts.", default=RelativeParameters()
     )
 
-    def model(self, folder: Path = Path()) -> Colonization:
+    def model(self, folder: Path = Path()) -> Colonization[Attraction]:
         """Give the model; files are looked for in ``folder``."""
         kill_distance = self.arrival.kill_distance
         return Colonization(

@@ -143,6 +143,7 @@ class Colonization(Model, Generic[A]):
         # then those that had grown, so that what has changed is known as it was.
         self.growth.carry(veins, step)
         n_before = veins.restore(step)
+        self.perception.restore(veins)
         self.perception.look(veins, n_before)
         veins.forget_changes()
         veins.index_nodes(n_before, veins.nodes.n_rows)

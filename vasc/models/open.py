@@ -4,13 +4,13 @@ from pathlib import Path
 from typing import Literal
 
 from vasc.models.arrival import FirstArrival
-from vasc.models.base import Venation
+from vasc.models.base import PulledVenation
 from vasc.models.colonization import Colonization
-from vasc.models.perception import NearestParameters
+from vasc.models.perception import Attraction, NearestParameters
 from vasc.parameters import quantity
 
 
-class OpenVenation(Venation):
+class OpenVenation(PulledVenation):
     """Each source attracts the nearest node and dies when the first vein arrives."""
 
     kind: Literal["open"] = "open"
@@ -18,7 +18,7 @@ class OpenVenation(Venation):
         "Which nodes a source attracts.", default=NearestParameters()
     )
 
-    def model(self, folder: Path = Path()) -> Colonization:
+    def model(self, folder: Path = Path()) -> Colonization[Attraction]:
         """Give the model; files are looked for in ``folder``."""
         kill_distance = self.arrival.kill_distance
         return Colonization(

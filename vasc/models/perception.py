@@ -48,6 +48,9 @@ class Perception(ABC, Generic[A]):
     def follow(self, veins: Vasculature, moment: Moment, cuts: Sequence[Cut]) -> None:
         """Take note of nodes that refinement has replaced; by default nothing."""
 
+    def restore(self, veins: Vasculature) -> None:
+        """Put back what the tables tell and :meth:`look` does not find; by default nothing."""
+
 
 class Attraction(NamedTuple):
     """The pulls on the nodes in one step."""

@@ -1,0 +1,204 @@
+"""Canals: polarized tissue between a source and its relative neighbours (Runions 2008, 5.2.3)."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from vasc import kernels
+from vasc.arrays import NULL, Ids, Table
+from vasc.events import EventKind
+from vasc.models.perception import Cut, Perception
+from vasc.network import Origin
+from vasc.placement import Moment
+from vasc.states import CanalState, Kind, check_transition
+from vasc.vasculature import Vasculature
+
+ROUNDING = 1e-6
+"""Distances from a source that differ by less, in D, are equal."""
+
+UNDER_WAY = (CanalState.INBOUND, CanalState.OUTBOUND)
+
+
+@dataclass
+class Canal:
+    """One canal: the tissue between a source and a vein node."""
+
+    id: int
+    """Row of the perceived table."""
+    source: int
+    node: int
+    """The vein node it leads to, or begins at if it is the inbound one."""
+    state: CanalState = CanalState.GROUND
+    tip: int = NULL
+    """The vein node at the end of the strand that differentiates along it."""
+
+
+@dataclass
+class Canals:
+    """All canals that are not differentiated along their whole length.
+
+    Attributes
+    ----------
+    by_source : dict of int to list of Canal
+        Canals of a source, in the order of its relative neighbours.
+    drained : dict of int to int
+        The vein node that each source drained in the last step became.
+    """
+
+    by_source: dict[int, list[Canal]] = field(default_factory=dict)
+    drained: dict[int, int] = field(default_factory=dict)
+
+    def under_way(self) -> list[Canal]:
+        """Give the canals along which a strand differentiates, in the order of their ids."""
+        found = [c for canals in self.by_source.values() for c in canals if c.state in UNDER_WAY]
+        return sorted(found, key=lambda canal: canal.id)
+
+    def change(self, veins: Vasculature, step: int, canal: Canal, state: CanalState) -> None:
+        """Let a canal pass into another state."""
+        check_transition(Kind.CANAL, canal.state, state)
+        canal.state = state
+        veins.log_states(step, np.array([canal.id], dtype=np.int32), state, Kind.CANAL)
+        if state in (CanalState.VEIN, CanalState.ARRESTED):
+            remaining = [other for other in self.by_source[canal.source] if other is not canal]
+            self.by_source[canal.source] = remaining
+            if not remaining:
+                del self.by_source[canal.source]
+
+
+class CanalPerception(Perception[Canals]):
+    """Relative neighbours are perceived when a source is born, and stored as canals.
+
+    Only the canal of the closest of them differentiates at once, toward the
+    source; the others do so away from it, once it is drained.
+
+    Parameters
+    ----------
+    canals : Canals
+        Where they are kept.
+    tie : float
+        Neighbours farther than the closest by at most that are as close, D.
+    """
+
+    def __init__(self, canals: Canals, tie: float) -> None:
+        self.canals = canals
+        self.tie = tie
+        self._n_sources = 0
+
+    def look(self, veins: Vasculature, n_nodes: int) -> None:
+        """Do nothing: what a source induced at its birth stays."""
+
+    def is_stuck(self, veins: Vasculature) -> bool:
+        """Say no: every strand comes nearer to where it leads."""
+        return False
+
+    def perceive(self, veins: Vasculature, moment: Moment) -> Canals:
+        """Let new sources induce canals, and drained ones let theirs differentiate."""
+        step = moment.step
+        for source, node in self.canals.drained.items():
+            for canal in self.canals.by_source.get(source, []):
+                canal.tip = node
+                self.canals.change(veins, step, canal, CanalState.OUTBOUND)
+        self.canals.drained.clear()
+        for source in range(self._n_sources, veins.sources.n_rows):
+            self._induce(veins, moment, source)
+        self._n_sources = veins.sources.n_rows
+        return self.canals
+
+    def held(self, veins: Vasculature) -> Ids:
+        """Give the tips of all strands, and the nodes that sources became."""
+        tips = [canal.tip for canal in self.canals.under_way()]
+        return np.array(sorted({*tips, *self.canals.drained.values()}), dtype=np.int32)
+
+    def follow(self, veins: Vasculature, moment: Moment, cuts: list[Cut]) -> None:
+        """Let canals lead to the nearer of the two nodes that replace one."""
+        places, sources = veins.places("nodes"), veins.places("sources")
+        for cut in cuts:
+            for canals in self.canals.by_source.values():
+                for canal in canals:
+                    if canal.node != cut.node or canal.state == CanalState.INBOUND:
+                        continue
+                    is_pending = canal.state == CanalState.PRE_PATTERN
+                    origin = sources[canal.source] if is_pending else places[canal.tip]
+                    gaps = [((places[n] - origin) ** 2).sum() for n in (cut.first, cut.second)]
+                    canal.node = cut.first if gaps[0] <= gaps[1] else cut.second
+                    veins.log(moment.step, EventKind.CANAL_RETARGETED, canal.id, canal.node)
+
+    def _induce(self, veins: Vasculature, moment: Moment, source: int) -> None:
+        """Store the canals of a new source; that of its closest relative neighbour begins."""
+        nodes, distances = relative_neighbors(veins, veins.places("sources")[source])
+        table = veins.tables["perceived"]
+        rows = table.append(step=moment.step, source=source, node=nodes)
+        ids = range(rows.start, rows.stop)
+        canals = [Canal(i, source, node) for i, node in zip(ids, nodes.tolist(), strict=True)]
+        self.canals.by_source[source] = canals
+        for canal in canals:
+            self.canals.change(veins, moment.step, canal, CanalState.PRE_PATTERN)
+        closest = canals[self._closest(veins, nodes, distances)]
+        closest.tip = closest.node
+        self.canals.change(veins, moment.step, closest, CanalState.INBOUND)
+
+    def _closest(self, veins: Vasculature, nodes: Ids, distances: np.ndarray) -> int:
+        """Give the row of the closest neighbour; of equals that of the oldest vein, the lowest."""
+        rows = np.flatnonzero(distances <= distances.min() + self.tie)
+        places = veins.places("nodes")[nodes[rows]]
+        # the seed and the first vein count as one
+        veins_of = np.maximum(veins.nodes.arrays["source"][nodes[rows]], 0)
+        order = np.lexsort((np.abs(places[:, 0]), places[:, 1], veins_of))
+        return int(rows[order[0]])
+
+    def restore(self, veins: Vasculature) -> None:
+        """Put back the canals that a record describes."""
+        perceived, states = veins.tables["perceived"], veins.tables["states"]
+        events = veins.tables["events"]
+        is_canal = states.view("what") == Kind.CANAL
+        current = dict(
+            zip(states.view("id")[is_canal].tolist(), states.view("state")[is_canal].tolist(),
+                strict=True)
+        )  # fmt: skip
+        tips = latest(events, EventKind.STRAND_EXTENDED)
+        nodes = latest(events, EventKind.CANAL_RETARGETED)
+        is_source = veins.nodes.view("origin") == Origin.SOURCE
+        owners = veins.nodes.view("source")[is_source].tolist()
+        became = dict(zip(owners, np.flatnonzero(is_source).tolist(), strict=True))
+        pairs = zip(perceived.view("source").tolist(), perceived.view("node").tolist(), strict=True)
+        for row, (source, node) in enumerate(pairs):
+            state = CanalState(current[row])
+            if state in (CanalState.VEIN, CanalState.ARRESTED):
+                continue
+            start = became.get(source, node)
+            tip = tips.get(row, start) if state in UNDER_WAY else NULL
+            canal = Canal(row, source, nodes.get(row, node), state, tip)
+            self.canals.by_source.setdefault(source, []).append(canal)
+            if state == CanalState.PRE_PATTERN and source in became:
+                self.canals.drained[source] = became[source]
+        self._n_sources = veins.sources.n_rows
+
+
+def latest(events: Table, kind: EventKind) -> dict[int, int]:
+    """Give the last object of each subject among the events of a kind."""
+    rows = events.view("kind") == kind
+    return dict(
+        zip(events.view("subject")[rows].tolist(), events.view("object")[rows].tolist(), strict=True)
+    )
+
+
+def relative_neighbors(veins: Vasculature, place: np.ndarray) -> tuple[Ids, np.ndarray]:
+    """Give the relative neighbours of a place among the vein nodes, nearest first.
+
+    Ties are resolved by height and distance from the midline, so that a leaf and
+    its mirror image have mirrored neighbours.
+
+    Returns
+    -------
+    nodes : ndarray of shape (k,), int32
+        Node ids.
+    distances : ndarray of shape (k,), float64
+        Their distances.
+    """
+    nodes = np.flatnonzero(~veins.is_retired[: veins.nodes.n_rows]).astype(np.int32)
+    places = veins.places("nodes")[nodes]
+    distances = np.sqrt(((places - place) ** 2).sum(axis=1))
+    keys = (places[:, 0], np.abs(places[:, 0]), places[:, 1], np.round(distances / ROUNDING))
+    order = np.lexsort(keys)
+    rows = order[kernels.canals.ordered_neighbors(places[order], distances[order])]
+    return nodes[rows], distances[rows]
