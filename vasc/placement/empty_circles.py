@@ -20,6 +20,9 @@ CELLS_PER_DISTANCE = 6.0
 TIE = 1e-6
 """Circles whose radii differ by less, in D, count as equally large."""
 
+ROUNDING = 1e-9
+"""Radii that differ by less, in D, differ by rounding."""
+
 MARGIN_SHARE = 0.15
 """A centre at most that share of the birth distance from the outline is on the margin."""
 
@@ -199,7 +202,7 @@ class Room:
         for third in range(2, len(around)):
             found = circumcentres(around[[0, 1, third]][None])
             if len(found) and np.abs(found[0] - centre).max() < 1e3 * TIE:
-                found[0, 0] = 0.0 if abs(found[0, 0]) < 1e-9 else found[0, 0]
+                found[0, 0] = 0.0 if abs(found[0, 0]) < ROUNDING else found[0, 0]
                 return found[0]
         return centre
 
@@ -219,10 +222,15 @@ class Room:
         rows = rows[is_free[rows] & is_free[(rows + 1) % ring]]
         shares = self._refined(rows)
         material, places = growth.along_margin(rows, shares, step)
+        refined = self._clearances(places)
+        # a point of the margin, as that on the midline, is not left for rounding
+        is_better = refined > np.maximum(radii[rows], radii[(rows + 1) % ring]) + ROUNDING
         at_peaks = growth.along_margin(peaks, np.zeros(len(peaks)), step)
-        material = np.concatenate([material, at_peaks[0]])
-        places = np.concatenate([places, at_peaks[1]])
-        return Circles(material, places, self._clearances(places))
+        return Circles(
+            np.concatenate([material[is_better], at_peaks[0]]),
+            np.concatenate([places[is_better], at_peaks[1]]),
+            np.concatenate([refined[is_better], radii[peaks]]),
+        )
 
     def _refined(self, rows: Points) -> Floats:
         """Give the share of each gap of the margin at which there is most room, shape (k,).
