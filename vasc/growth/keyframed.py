@@ -47,6 +47,7 @@ class KeyframedGrowth(Deformation):
         self.times = times
         self.frames = frames
         self.step_duration = step_duration
+        self._latest_rows: tuple[int, NDArray[np.float64]] | None = None
         n_steps = float(times[-1]) / step_duration
         if n_steps > MOST_STEPS:
             raise ConfigError(
@@ -77,7 +78,13 @@ class KeyframedGrowth(Deformation):
         return step * self.step_duration
 
     def rows(self, step: int) -> NDArray[np.float64]:
-        """Give the control rows at a step, shape (3, r)."""
+        """Give the control rows at a step, shape (3, r); those last asked for are kept."""
+        if self._latest_rows is None or self._latest_rows[0] != step:
+            self._latest_rows = step, self._interpolated(step)
+        return self._latest_rows[1]
+
+    def _interpolated(self, step: int) -> NDArray[np.float64]:
+        """Give the control rows between two key-frames."""
         time = self.time(step)
         after = int(np.searchsorted(self.times, time, side="right"))
         if after == len(self.times):

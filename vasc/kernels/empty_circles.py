@@ -5,6 +5,10 @@ from numpy.typing import NDArray
 
 from vasc.kernels.compiled import compiled, unowned
 from vasc.kernels.hash_grid import SLACK, HashGrid, any_within, cell_of, nearest
+from vasc.kernels.polygon import EdgeGrid, is_inside
+
+HALVINGS = 3
+"""How often a cell is quartered before it is taken for open."""
 
 
 @unowned
@@ -61,6 +65,73 @@ def clearances(
         _, square = nearest(grid, sites, points[k, 0], points[k, 1])
         found[k] = np.sqrt(square)
     return found
+
+
+@compiled
+def open_cells(
+    centres: NDArray[np.float64],
+    side: float,
+    grid: HashGrid,
+    sites: NDArray[np.float64],
+    outline: EdgeGrid,
+    outline_size: float,
+    margin_grid: HashGrid,
+    margin: NDArray[np.float64],
+    spacing: float,
+    limit: float,
+) -> NDArray[np.float64]:
+    """Give an upper bound of the clearance in each cell where it may exceed a limit, else 0.
+
+    A cell is quartered again and again; parts that lie within the limit of a site,
+    or off the blade, are left out.
+
+    Parameters
+    ----------
+    centres : ndarray of shape (k, 2), float64
+        Centres of the cells.
+    side : float
+        Their side.
+    grid, sites : HashGrid, ndarray of shape (n, 2)
+        The sites, indexed.
+    outline, outline_size : EdgeGrid, float
+        The blade.
+    margin_grid, margin : HashGrid, ndarray of shape (m, 2)
+        Points of the margin, indexed, at most ``spacing`` apart.
+    spacing, limit : float
+        In the unit of the sites.
+
+    Returns
+    -------
+    ndarray of shape (k,), float64
+    """
+    bounds = np.zeros(len(centres))
+    stack = np.empty((4 * HALVINGS + 4, 3))
+    for k in range(len(centres)):
+        stack[0] = centres[k, 0], centres[k, 1], 0.0
+        top = 1
+        while top > 0:
+            top -= 1
+            x, y, depth = stack[top, 0], stack[top, 1], stack[top, 2]
+            half = 0.5 * side / (1 << int(depth))
+            reach = half * np.sqrt(2.0) * (1.0 + SLACK)
+            _, square = nearest(grid, sites, x, y)
+            bound = np.sqrt(square) + reach
+            if bound <= limit:
+                continue
+            near = reach + 0.5 * spacing
+            if not is_inside(outline, x / outline_size, y / outline_size) and not any_within(
+                margin_grid, margin, x, y, near * near
+            ):
+                continue
+            if depth == HALVINGS:
+                bounds[k] = max(bounds[k], bound)
+                continue
+            for i in range(4):
+                stack[top, 0] = x + (half if i % 2 else -half) * 0.5
+                stack[top, 1] = y + (half if i // 2 else -half) * 0.5
+                stack[top, 2] = depth + 1.0
+                top += 1
+    return bounds
 
 
 @compiled
