@@ -87,8 +87,14 @@ def test_a_file_of_sources_is_read_before_anything_is_made(content, part, here, 
         (["poplar-leaf", "--set", "seed.x=1"], ["seed is not a table"]),
         (["poplar-leaf", "--set", "growth.knd=none"], ["growth.knd", 'nearest: "kind"']),
         (["poplar-leaf", "--seed", "-1"], ["seed = -1", "at least 0"]),
-        (["poplar-leaf", "--seed", "x"], ["--seed"]),
-        (["poplar-leaf", "--steps", "0"], ["--steps"]),
+        (["poplar-leaf", "--seed", "x"], ["--seed", "x"]),
+        (["poplar-leaf", "--steps", "0"], ["'--steps'", " 0 "]),
+        (["poplar-leaf", "--steps=-7"], ["'--steps'", " -7 "]),
+        (["poplar-leaf", "--seed", "9" * 20_000], ["'--seed'", "999 ... 999"]),
+        (["poplar-leaf", "--steps", "9" * 20_000], ["'--steps'", "999 ... 999"]),
+        (["poplar-leaf", "--set", f"seed={'9' * 20_000}"], ["seed = ", "999 ... 999"]),
+        (["poplar-leaf", "--set", "9" * 20_000], ["KEY=VALUE", "999 ... 999"]),
+        (["poplar-leaf", "--set", f"{'.' * 20_000}=1"], ["is not a key", "... ..."]),
         (["poplar-leaf", "-o", "nowhere/p.h5"], ["nowhere", "does not exist"]),
         (["poplar-leaf", "-o", "."], ["is a folder"]),
         (["poplar-leaf", "-o", f"{'p' * 300}.h5"], ["ppp", "is not the name of a file"]),
@@ -103,6 +109,7 @@ def test_a_file_of_sources_is_read_before_anything_is_made(content, part, here, 
 def test_wrong_arguments_are_refused(arguments, parts, here, capsys):
     (line,) = refused(["run", *arguments], capsys)
     assert [part for part in parts if part not in line] == []
+    assert len(line) < 600
     assert list(here.iterdir()) == []
 
 
