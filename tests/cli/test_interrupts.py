@@ -1,5 +1,6 @@
 """A run that is stopped from outside keeps what it made, and says how to go on."""
 
+import builtins
 import os
 import pty
 import re
@@ -176,3 +177,29 @@ def test_a_thread_that_may_not_ask_for_signals_runs_without():
     thread.start()
     thread.join()
     assert found == [False]
+
+
+def test_an_interrupt_while_the_program_loads_is_one(monkeypatch, capsys):
+    def interrupted(name, *arguments):
+        if name == "vasc.cli.program":
+            raise KeyboardInterrupt
+        return import_module(name, *arguments)
+
+    import_module = builtins.__import__
+    monkeypatch.setattr(builtins, "__import__", interrupted)
+    assert main(["configs"]) == 130
+    assert capsys.readouterr().err == "interrupted\n"
+
+
+def test_a_run_is_continued_by_one_at_a_time(here, capsys):
+    long = start(here, "run", "leaf.toml", "--no-figure", *LONG, stderr=subprocess.DEVNULL)
+    try:
+        wait_for_steps(here / "leaf.h5", 60)
+        for words in (["resume", "leaf.h5"], ["run", "leaf.toml", "--force", "--no-figure"]):
+            assert main(words) == 2
+            assert capsys.readouterr().err == "leaf.h5: is being written by another run\n"
+    finally:
+        long.send_signal(signal.SIGINT)
+        assert long.wait(timeout=30) == 130
+    assert main(["resume", "leaf.h5", "--steps", "2", "-q"]) == 0
+    assert validate("leaf.h5") == []
