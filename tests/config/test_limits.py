@@ -6,6 +6,7 @@ import pytest
 from config.wrong_configs import config
 
 from vasc.config import bundled_configs, load, load_text, parse_override
+from vasc.config.limits import blade_problems, size_problems
 from vasc.errors import ConfigError
 
 STILL = {"growth": 'kind = "none"'}
@@ -115,3 +116,17 @@ def test_what_only_the_model_finds_begins_with_the_label():
     experiment = load_text(text, label="leaf.toml")
     with pytest.raises(ConfigError, match=r"^leaf.toml: .*\(500, 5\) lies outside"):
         experiment.model()
+
+
+def test_a_blade_of_an_installed_growth_may_begin_small():
+    parameters = load_text(config(**STILL)).parameters
+    small = parameters.domain.model_copy(update={"length": 0.01})
+    still = parameters.model_copy(update={"domain": small})
+    assert "no room" in size_problems(still)[0]
+
+    class Growth:
+        kind = "slowing"
+
+    growing = parameters.model_copy(update={"domain": small, "growth": Growth()})
+    assert size_problems(growing) == []
+    assert blade_problems(growing, small.blade()) == []

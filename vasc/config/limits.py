@@ -73,11 +73,14 @@ def size_problems(parameters: "Venation") -> list[str]:
             f"{assignment(('domain', 'length'), first)}: the blade would begin with"
             f" {first / segment:.3g} segment lengths; it must have at least {SHORTEST:g}"
         )
-    problems.append(_too_small(key, last, "long", last / segment, 1.0))
+    is_end_known = _is_end_known(parameters)
+    if is_end_known:
+        problems.append(_too_small(key, last, "long", last / segment, 1.0))
     if (ratio := parameters.domain.width) is not None and not any(problems):
         width = ratio * last / segment
         problems.append(_too_long(("domain", "width"), ratio, width))
-        problems.append(_too_small(("domain", "width"), ratio, "wide", width, NARROWEST))
+        if is_end_known:
+            problems.append(_too_small(("domain", "width"), ratio, "wide", width, NARROWEST))
     return [problem for problem in problems if problem]
 
 
@@ -103,7 +106,8 @@ def blade_problems(parameters: "Venation", blade: "Blade") -> list[str]:
     segment = parameters.extension.segment_length
     if parameters.domain.width is None:
         found = _too_long(key, last, max(width, height) / segment)
-        found = found or _too_small(key, last, "wide", width / segment, NARROWEST)
+        if not found and _is_end_known(parameters):
+            found = _too_small(key, last, "wide", width / segment, NARROWEST)
         if found:
             return [found]
     if parameters.placement.kind != "darts":
@@ -124,6 +128,12 @@ def _final_length(parameters: "Venation") -> tuple[Key, float]:
     if final is None:
         return ("domain", "length"), parameters.domain.length
     return ("growth", "final_length"), float(final)
+
+
+def _is_end_known(parameters: "Venation") -> bool:
+    """Tell whether the size at the end is known: an installed growth may keep it to itself."""
+    growth: Any = parameters.growth
+    return growth.kind == "none" or getattr(growth, "final_length", None) is not None
 
 
 def _too_long(key: Key, value: float, n_segments: float) -> str:
@@ -171,7 +181,8 @@ def _wrong_number_of_darts(parameters: "Venation", area: float, box: float) -> s
         growth: Any = parameters.growth
         n_steps = (growth.final_length - parameters.domain.length) / growth.length_per_step
         n_darts = placement.density * box * max(n_steps, 1.0)
-    if FEWEST_DARTS <= n_darts <= MOST_DARTS:
+    is_enough = n_darts >= FEWEST_DARTS or not _is_end_known(parameters)
+    if is_enough and n_darts <= MOST_DARTS:
         return ""
     key, last = _final_length(parameters)
     line = (
