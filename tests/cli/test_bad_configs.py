@@ -64,6 +64,7 @@ def test_what_only_geometry_can_tell_is_refused_too(spoilt, part, here, capsys):
     ("content", "part"),
     [
         ("x,y\n0,5\n1,oops\n", "line 3"),
+        ("x,y\n0,nan\n", "must be finite"),
         ("a,b\n0,5\n", "columns x, y"),
         ("", "holds no sources"),
     ],

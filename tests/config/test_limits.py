@@ -55,6 +55,21 @@ def problems(**tables):
         ({"domain": shape(1e-300)}, "domain.length = 1e-300", "at least 1e-06"),
         ({"placement": DARTS.format(0.1, 1e200, 8)}, "placement.birth_distance_sources", "1e+12"),
         ({"placement": DARTS.format(0.1, 8, 1e200)}, "placement.birth_distance_veins", "1e+12"),
+        (
+            {"refinement": 'kind = "subdivision"\nlongest = 1e-6'},
+            "refinement.longest = 1e-06",
+            "at least 0.01",
+        ),
+        (
+            {"refinement": 'kind = "subdivision"', "placement": DARTS.format(0.1, 8, 1e-6)},
+            "placement.birth_distance_veins = 1e-06",
+            "1e+06 pieces",
+        ),
+        (
+            {"placement": f'kind = "given"\npoints = [[0.0, 5.0]]\nbirths = [{2**31}]'},
+            "placement.births[0] = 2147483648",
+            "at most 2,147,483,647",
+        ),
         ({"arrival": "kill_distance = 1e200"}, "arrival.kill_distance = 1e+200", "1e+12"),
     ],
 )

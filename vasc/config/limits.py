@@ -46,6 +46,12 @@ MOST_DARTS = 1e8
 MOST_CELLS = 1e9
 """Cells that the search for room may need; each takes about ten bytes."""
 
+SHORTEST_PIECE = 0.01
+"""Segment lengths that stretched segments may be cut down to: all vein nodes are kept."""
+
+LAST_BIRTH = 2**31 - 1
+"""The last step that a timeline can hold."""
+
 CELLS_PER_DISTANCE = 4.0
 """Cells along the distance that sources keep from veins, as in :mod:`vasc.kernels.darts`."""
 
@@ -67,7 +73,11 @@ def size_problems(parameters: "Venation") -> list[str]:
         return problems
     segment = parameters.extension.segment_length
     first, key, last = parameters.domain.length, *_final_length(parameters)
-    problems = [_too_long(key, last, last / segment)]
+    problems = [
+        _too_long(key, last, last / segment),
+        _too_short_pieces(parameters, segment),
+        _too_late(parameters),
+    ]
     if first / segment < SHORTEST:
         problems.append(
             f"{assignment(('domain', 'length'), first)}: the blade would begin with"
@@ -154,6 +164,36 @@ def _too_small(key: Key, value: float, across: str, n_segments: float, least: fl
         f"{assignment(key, value)}: the blade would be {n_segments:.3g} segment lengths {across}"
         f" in the end, which leaves no room for a vein; it must be at least {least:g}"
     )
+
+
+def _too_short_pieces(parameters: "Venation", segment: float) -> str:
+    """Describe a refinement into pieces that are far too many; empty if they are not."""
+    refinement: Any = parameters.refinement
+    if refinement.kind != "subdivision":
+        return ""
+    placement: Any = parameters.placement
+    key, longest = ("refinement", "longest"), refinement.longest
+    if longest is None and placement.kind == "darts":
+        key, longest = ("placement", "birth_distance_veins"), placement.birth_distance_veins
+    if longest is None or longest >= SHORTEST_PIECE * segment:
+        return ""
+    return (
+        f"{assignment(key, longest)}: refinement would cut each segment into"
+        f" {segment / longest:.3g} pieces or more, which memory cannot hold; it must be at least"
+        f" {SHORTEST_PIECE * segment:g}"
+    )
+
+
+def _too_late(parameters: "Venation") -> str:
+    """Describe the first source that is given for a step no run can record; empty if none is."""
+    births = getattr(parameters.placement, "births", None) or []
+    for row, step in enumerate(births):
+        if step > LAST_BIRTH:
+            return (
+                f"{assignment(('placement', 'births', row), step)}: must be a step of at most"
+                f" {LAST_BIRTH:,}"
+            )
+    return ""
 
 
 def _absurd_lengths(parameters: "Venation") -> list[str]:

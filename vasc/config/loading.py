@@ -12,7 +12,7 @@ from vasc.config.limits import blade_problems, size_problems
 from vasc.config.overrides import Override, overridden
 from vasc.config.reading import parse, read_text, refuse_deep
 from vasc.config.values import assignment
-from vasc.errors import ConfigError, OutlineError, TimelineError
+from vasc.errors import ConfigError, OutlineError, TimelineError, VascError
 
 if TYPE_CHECKING:
     from vasc.models.base import Model, Venation
@@ -80,7 +80,7 @@ class Experiment:
         except ConfigError as error:
             problems = [f"{label}: {problem}" for problem in error.problems]
             raise ConfigError(problems) from error
-        except OutlineError as error:
+        except VascError as error:
             raise ConfigError(f"{label}: {error}") from error
 
 
