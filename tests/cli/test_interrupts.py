@@ -69,9 +69,11 @@ def test_a_signal_ends_a_run_that_can_be_resumed(here, number, code):
     assert main(["verify", "leaf.h5", "-q"]) == 0
 
 
-def test_a_terminal_shows_one_line_of_progress(here):
+def seen_on_a_terminal(here, **options):
+    """Give what a terminal is sent during a run."""
     leader, follower = pty.openpty()
-    run = start(here, "run", "leaf.toml", "--no-figure", stderr=follower, stdout=subprocess.DEVNULL)
+    options = {name: follower if it is None else it for name, it in options.items()}
+    run = start(here, "run", "leaf.toml", "--no-figure", stderr=follower, **options)
     os.close(follower)
     shown = b""
     while select.select([leader], [], [], 60.0)[0]:
@@ -84,7 +86,18 @@ def test_a_terminal_shows_one_line_of_progress(here):
         shown += piece
     os.close(leader)
     assert run.wait(timeout=60) == 0
-    text = shown.decode()
+    return shown.decode()
+
+
+def test_what_is_run_is_told_on_a_line_of_its_own(here):
+    text = seen_on_a_terminal(here, stdout=None)
+    before, told, after = text.partition("leaf: closed venation")
+    assert before.endswith("\r\x1b[K")
+    assert told not in after
+
+
+def test_a_terminal_shows_one_line_of_progress(here):
+    text = seen_on_a_terminal(here, stdout=subprocess.DEVNULL)
     assert "\n" not in text
     lines = text.split("\r\x1b[K")
     assert lines[-1] == ""
