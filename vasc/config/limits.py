@@ -40,8 +40,8 @@ LENGTHS = (
 FEWEST_DARTS = 1e-9
 """Darts a step that make a run possible: fewer would never be thrown."""
 
-MOST_DARTS = 1e8
-"""Darts that may be thrown at once; each takes about a hundred bytes."""
+MOST_DARTS = 5e7
+"""Darts that may be thrown at once; each takes about 170 bytes."""
 
 MOST_CELLS = 1e9
 """Cells that the search for room may need; each takes about ten bytes."""
