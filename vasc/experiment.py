@@ -121,14 +121,13 @@ def run(
     ------
     OutputError
         If the file cannot be written.
-    OutlineError
-        If the blade cannot be used.
     ConfigError
-        If a file the config refers to cannot be used.
+        If the blade or a file the config refers to cannot be used.
     """
     started = time.perf_counter()
     parameters = experiment.parameters
-    model, streams = parameters.model(experiment.folder), Streams(parameters.seed, parameters.stream_names)
+    model = experiment.model()
+    streams = Streams(parameters.seed, parameters.stream_names)
     state = model.initial_state(streams)
     units = parameters.units
     recorder = Recorder.create(
@@ -257,7 +256,7 @@ def repeatable(timeline: Timeline) -> Iterator[tuple[Model, Streams]]:
         If this version cannot read its config.
     """
     with experiment_from_record(timeline.config, name=str(timeline.path)) as experiment:
-        model = experiment.parameters.model(experiment.folder)
+        model = experiment.model()
     yield model, Streams(timeline.seed, timeline.stream_names)
 
 

@@ -1,5 +1,8 @@
 """A wrong config ends `vasc run` with lines and exit code 2, and leaves nothing behind."""
 
+import os
+from pathlib import Path
+
 import pytest
 from config.wrong_configs import WRONG, config
 
@@ -51,8 +54,8 @@ def test_a_wrong_config_is_refused(case, here, capsys):
 )
 def test_what_only_geometry_can_tell_is_refused_too(spoilt, part, here, capsys):
     (here / "leaf.toml").write_text(config(**spoilt))
-    assert main(["run", "leaf.toml", "--quiet"]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
+    (line,) = refused(["run", "leaf.toml"], capsys)
+    assert line.startswith("leaf.toml: ")
     assert part in line
     assert [path.name for path in here.iterdir()] == ["leaf.toml"]
 
@@ -61,6 +64,7 @@ def test_what_only_geometry_can_tell_is_refused_too(spoilt, part, here, capsys):
     ("content", "part"),
     [
         ("x,y\n0,5\n1,oops\n", "line 3"),
+        ("x,y\n0,nan\n", "must be finite"),
         ("a,b\n0,5\n", "columns x, y"),
         ("", "holds no sources"),
     ],
@@ -68,8 +72,8 @@ def test_what_only_geometry_can_tell_is_refused_too(spoilt, part, here, capsys):
 def test_a_file_of_sources_is_read_before_anything_is_made(content, part, here, capsys):
     (here / "leaf.toml").write_text(config(placement='kind = "given"\nfile = "s.csv"'))
     (here / "s.csv").write_text(content)
-    assert main(["run", "leaf.toml", "--quiet"]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
+    (line,) = refused(["run", "leaf.toml"], capsys)
+    assert line.startswith("leaf.toml: ")
     assert part in line
     assert {path.name for path in here.iterdir()} == {"leaf.toml", "s.csv"}
 
@@ -84,10 +88,18 @@ def test_a_file_of_sources_is_read_before_anything_is_made(content, part, here, 
         (["poplar-leaf", "--set", "seed.x=1"], ["seed is not a table"]),
         (["poplar-leaf", "--set", "growth.knd=none"], ["growth.knd", 'nearest: "kind"']),
         (["poplar-leaf", "--seed", "-1"], ["seed = -1", "at least 0"]),
-        (["poplar-leaf", "--seed", "x"], ["--seed"]),
-        (["poplar-leaf", "--steps", "0"], ["--steps"]),
+        (["poplar-leaf", "--seed", "x"], ["--seed", "x"]),
+        (["poplar-leaf", "--steps", "0"], ["'--steps'", " 0 "]),
+        (["poplar-leaf", "--steps=-7"], ["'--steps'", " -7 "]),
+        (["poplar-leaf", "--seed", "9" * 20_000], ["'--seed'", "999 ... 999"]),
+        (["poplar-leaf", "--steps", "9" * 20_000], ["'--steps'", "999 ... 999"]),
+        (["poplar-leaf", "--set", f"seed={'9' * 20_000}"], ["seed = ", "999 ... 999"]),
+        (["poplar-leaf", "--set", "9" * 20_000], ["KEY=VALUE", "999 ... 999"]),
+        (["poplar-leaf", "--set", f"{'.' * 20_000}=1"], ["is not a key", "... ..."]),
         (["poplar-leaf", "-o", "nowhere/p.h5"], ["nowhere", "does not exist"]),
         (["poplar-leaf", "-o", "."], ["is a folder"]),
+        (["poplar-leaf", "-o", f"{'p' * 300}.h5"], ["ppp", "is not the name of a file"]),
+        (["poplar-leaf", "--figure", f"{'p' * 300}.png"], ["ppp", "is not the name of a file"]),
         (["poplar-leaf", "--figure", "nowhere/p.png"], ["nowhere", "does not exist"]),
         (["poplar-leaf", "--figure", "p.bmp"], ["p.bmp", ".png, .svg, .pdf"]),
         (["poplar-leaf", "--figure", "p"], [".png, .svg, .pdf"]),
@@ -98,6 +110,7 @@ def test_a_file_of_sources_is_read_before_anything_is_made(content, part, here, 
 def test_wrong_arguments_are_refused(arguments, parts, here, capsys):
     (line,) = refused(["run", *arguments], capsys)
     assert [part for part in parts if part not in line] == []
+    assert len(line) < 600
     assert list(here.iterdir()) == []
 
 
@@ -111,6 +124,14 @@ def test_a_file_that_exists_is_refused_before_the_run(here, capsys):
     assert [(path.name, path.read_bytes()) for path in here.iterdir()] == [
         ("poplar-leaf.png", b"mine")
     ]
+
+
+def test_a_folder_that_is_read_only_is_refused_before_the_run(here, capsys, monkeypatch):
+    (here / "mine").mkdir()
+    monkeypatch.setattr(os, "access", lambda path, mode: Path(path) != Path("mine"))
+    for arguments in (["-o", "mine/p.h5"], ["--figure", "mine/p.png"]):
+        (line,) = refused(["run", "poplar-leaf", *arguments], capsys)
+        assert "the folder 'mine' cannot be written to" in line
 
 
 def test_a_config_is_never_overwritten(here, capsys):

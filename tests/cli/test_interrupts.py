@@ -1,5 +1,6 @@
 """A run that is stopped from outside keeps what it made, and says how to go on."""
 
+import builtins
 import os
 import pty
 import re
@@ -68,9 +69,11 @@ def test_a_signal_ends_a_run_that_can_be_resumed(here, number, code):
     assert main(["verify", "leaf.h5", "-q"]) == 0
 
 
-def test_a_terminal_shows_one_line_of_progress(here):
+def seen_on_a_terminal(here, **options):
+    """Give what a terminal is sent during a run."""
     leader, follower = pty.openpty()
-    run = start(here, "run", "leaf.toml", "--no-figure", stderr=follower, stdout=subprocess.DEVNULL)
+    options = {name: follower if it is None else it for name, it in options.items()}
+    run = start(here, "run", "leaf.toml", "--no-figure", stderr=follower, **options)
     os.close(follower)
     shown = b""
     while select.select([leader], [], [], 60.0)[0]:
@@ -83,7 +86,18 @@ def test_a_terminal_shows_one_line_of_progress(here):
         shown += piece
     os.close(leader)
     assert run.wait(timeout=60) == 0
-    text = shown.decode()
+    return shown.decode()
+
+
+def test_what_is_run_is_told_on_a_line_of_its_own(here):
+    text = seen_on_a_terminal(here, stdout=None)
+    before, told, after = text.partition("leaf: closed venation")
+    assert before.endswith("\r\x1b[K")
+    assert told not in after
+
+
+def test_a_terminal_shows_one_line_of_progress(here):
+    text = seen_on_a_terminal(here, stdout=subprocess.DEVNULL)
     assert "\n" not in text
     lines = text.split("\r\x1b[K")
     assert lines[-1] == ""
@@ -176,3 +190,29 @@ def test_a_thread_that_may_not_ask_for_signals_runs_without():
     thread.start()
     thread.join()
     assert found == [False]
+
+
+def test_an_interrupt_while_the_program_loads_is_one(monkeypatch, capsys):
+    def interrupted(name, *arguments):
+        if name == "vasc.cli.program":
+            raise KeyboardInterrupt
+        return import_module(name, *arguments)
+
+    import_module = builtins.__import__
+    monkeypatch.setattr(builtins, "__import__", interrupted)
+    assert main(["configs"]) == 130
+    assert capsys.readouterr().err == "interrupted\n"
+
+
+def test_a_run_is_continued_by_one_at_a_time(here, capsys):
+    long = start(here, "run", "leaf.toml", "--no-figure", *LONG, stderr=subprocess.DEVNULL)
+    try:
+        wait_for_steps(here / "leaf.h5", 60)
+        for words in (["resume", "leaf.h5"], ["run", "leaf.toml", "--force", "--no-figure"]):
+            assert main(words) == 2
+            assert capsys.readouterr().err == "leaf.h5: is being written by another run\n"
+    finally:
+        long.send_signal(signal.SIGINT)
+        assert long.wait(timeout=30) == 130
+    assert main(["resume", "leaf.h5", "--steps", "2", "-q"]) == 0
+    assert validate("leaf.h5") == []

@@ -69,6 +69,39 @@ def test_show_for_people_says_what_it_is_and_how_it_was_made(leaf, capsys):
     assert "  density = 0.02\n" in text
 
 
+def test_a_check_of_what_is_no_timeline_is_bad_input(leaf, tmp_path, capsys):
+    (tmp_path / "text.h5").write_text("not a run")
+    (tmp_path / "empty.h5").write_bytes(b"")
+    with h5py.File(tmp_path / "other.h5", "w") as file:
+        file["x"] = [1, 2]
+    for name, said in (
+        ("text.h5", "is not an HDF5 file"),
+        ("empty.h5", "is not an HDF5 file"),
+        ("other.h5", "is an HDF5 file, but not a timeline"),
+        (".", "is a folder"),
+        ("none.h5", "no such file"),
+        ("text.h5/x", "cannot be opened"),
+    ):
+        assert main(["show", str(tmp_path / name), "--check"]) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert said in line
+
+
+def test_a_check_of_a_damaged_timeline_ends_with_1(leaf, tmp_path, capsys):
+    damaged = str(shutil.copy(leaf, tmp_path / "damaged.h5"))
+    with h5py.File(damaged, "r+") as file:
+        del file.attrs["format"]
+    assert "not a timeline" in output(["show", damaged, "--check"], capsys, code=1)
+    cut = tmp_path / "cut.h5"
+    cut.write_bytes((tmp_path / "damaged.h5").read_bytes()[:2000])
+    assert "truncated" in output(["show", str(cut), "--check"], capsys, code=1)
+
+
+def test_a_folder_is_no_run(tmp_path, capsys):
+    assert main(["show", str(tmp_path)]) == 2
+    assert "is a folder" in capsys.readouterr().err
+
+
 def test_a_check_passes_or_ends_with_1(leaf, tmp_path, capsys):
     assert "keeps to its specification" in output(["show", leaf, "--check"], capsys)
     bad = str(shutil.copy(leaf, tmp_path / "bad.h5"))

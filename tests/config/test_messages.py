@@ -49,6 +49,32 @@ def test_all_problems_are_told_at_once():
     assert len(found) == len(keys)
 
 
+@pytest.mark.parametrize(
+    ("tables", "wrong", "right"),
+    [
+        ({"domain": 'shape = "ovate"\nlenght = 20.0'}, "domain.lenght", "length"),
+        (
+            {"growth": 'kind = "marginal"\nfinal_lenght = 60.0\nlength_per_step = 2.0'},
+            "growth.final_lenght",
+            "final_length",
+        ),
+        ({"arrival": None, "arival": "kill_distance = 1.0"}, "arival", "arrival"),
+    ],
+)
+def test_a_misspelt_key_is_not_missing_as_well(tables, wrong, right):
+    (line,) = problems(config(**tables))
+    assert line.startswith(f"leaf: {wrong} = ")
+    assert line.endswith(f'; nearest: "{right}"')
+
+
+def test_a_missing_key_is_told_beside_an_unknown_one_that_is_not_like_it():
+    found = problems(config(domain='shape = "ovate"\nqqq = 1'))
+    assert [line.partition(":")[2].split()[0].rstrip(":") for line in found] == [
+        "domain.length",
+        "domain.qqq",
+    ]
+
+
 def test_problems_beside_an_unknown_kind_are_told_if_every_model_has_them():
     found = problems(
         config(top='kind = "x"', arrival="kill_distance = -1", perception='kind = "nearest"')

@@ -8,7 +8,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vasc.config import load_text
 from vasc.config.schema import json_schema, parameters_from, resolved_tables, to_toml
 from vasc.errors import ConfigError
 
@@ -82,8 +81,8 @@ CONFIGS = table(
 def test_parameters_written_as_toml_read_back_equal(tables):
     parameters = parameters_from(tables)
     text = to_toml(parameters)
+    # not by load, which refuses the blades that are drawn here without a thought for geometry
     assert parameters_from(tomllib.loads(text)) == parameters
-    assert load_text(text).parameters == parameters
     # and as the JSON that a timeline keeps
     assert parameters_from(json.loads(json.dumps(resolved_tables(parameters)))) == parameters
 

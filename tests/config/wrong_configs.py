@@ -178,6 +178,15 @@ WRONG = {
         "list",
         "or a table",
     ),
+    "no seeds": (
+        config(domain='shape = "ovate"\nlength = 20.0\nseeds = []'),
+        "domain.seeds = []",
+        "a list of at least 1",
+    ),
+    "parameters of no shape": (
+        config(domain="file = 'a.csv'\nlength = 20.0\nparameters = { sinus = 0.3 }"),
+        "domain: 'parameters' is for shape, not for file",
+    ),
     "row of seeds without a count": (
         config(domain='shape = "ovate"\nlength = 20.0\nseeds = { height = 0.1 }'),
         "domain.seeds.count: missing",

@@ -167,6 +167,11 @@ INVALID = {
         {"points": BOX, "parameters": {"shape": "ovate"}},
         "'parameters' is for shape, not for points",
     ),
+    "parameters of points that name no shape": (
+        {"points": BOX, "parameters": {"sinus": 0.3}},
+        "'parameters' is for shape, not for points",
+    ),
+    "no seeds": ({"shape": "ovate", "seeds": []}, "at least 1 item"),
     "smooth shape": ({"shape": "ovate", "smooth": True}, "'smooth' is for points and file"),
     "attachment of shape": ({"shape": "ovate", "attachment": "lowest"}, "'attachment' is for"),
     "other shape": (

@@ -6,7 +6,7 @@ import os
 import sys
 import traceback
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from typing import Any, TextIO
 
@@ -52,7 +52,7 @@ def interruptible(verb: Callable[..., None]) -> Callable[..., None]:
     return called
 
 
-def end_of(error: BaseException, *, with_traceback: bool) -> int:
+def end_of(error: BaseException, *, with_traceback: bool, arguments: Sequence[str] = ()) -> int:
     """Write what went wrong to the terminal.
 
     Parameters
@@ -61,6 +61,8 @@ def end_of(error: BaseException, *, with_traceback: bool) -> int:
         What ended a verb.
     with_traceback : bool
         Show where it came from, too.
+    arguments : sequence of str
+        The command line, to quote what is wrong in it.
 
     Returns
     -------
@@ -75,7 +77,7 @@ def end_of(error: BaseException, *, with_traceback: bool) -> int:
         return error.code if isinstance(error.code, int) else FAILED_RUN
     if with_traceback:
         traceback.print_exception(error)
-    lines, code = _described(error)
+    lines, code = _described(error, arguments)
     for line in lines:
         complain(line)
     return code
@@ -119,7 +121,7 @@ def without_lines_of_code() -> Iterator[None]:
         warnings.showwarning = before
 
 
-def _described(error: BaseException) -> tuple[list[str], int]:
+def _described(error: BaseException, arguments: Sequence[str]) -> tuple[list[str], int]:
     """Give the lines and the exit code of an error."""
     if isinstance(error, ConfigError):
         return error.problems, error.exit_code
@@ -130,7 +132,7 @@ def _described(error: BaseException) -> tuple[list[str], int]:
     # usage errors of the library that reads the command line know how to say it
     say = getattr(error, "format_message", None)
     if say is not None:
-        return [_usage(error, say())], int(getattr(error, "exit_code", BAD_INPUT))
+        return [_usage(error, say(), arguments)], int(getattr(error, "exit_code", BAD_INPUT))
     if isinstance(error, MemoryError):
         return ["not enough memory for this"], FAILED_RUN
     if isinstance(error, OSError):
@@ -143,11 +145,17 @@ def _described(error: BaseException) -> tuple[list[str], int]:
     ], FAILED_RUN
 
 
-def _usage(error: BaseException, message: str) -> str:
+def _usage(error: BaseException, message: str, arguments: Sequence[str]) -> str:
     """Describe a wrong command line."""
+    from vasc.config.values import shortened
+
     context = getattr(error, "ctx", None)
     path = getattr(context, "command_path", "vasc")
     line = _one_line(message).rstrip(".")
+    if given := _given(error, arguments):
+        # some versions of the library quote the value in full, others not at all
+        line = line.replace(given, shortened(given))
+        line += "" if shortened(given) in line else f", but {shortened(given)} is given"
     command = getattr(context, "command", None)
     verbs = list(getattr(command, "commands", {}) or {})
     word = line.partition("'")[2].partition("'")[0]
@@ -155,6 +163,17 @@ def _usage(error: BaseException, message: str) -> str:
         close = difflib.get_close_matches(word, verbs, n=1)
         line += f"; did you mean '{close[0]}'?" if close else f"; verbs: {', '.join(verbs)}"
     return f"{path}: {line} (`{path} --help` shows an example)"
+
+
+def _given(error: BaseException, arguments: Sequence[str]) -> str:
+    """Give what the command line has for the option that is wrong; empty if that is unknown."""
+    names = getattr(getattr(error, "param", None), "opts", ())
+    found = ""
+    for word, following in zip(arguments, [*arguments[1:], ""], strict=True):
+        name, _, value = word.partition("=")
+        if name in names:
+            found = following if name == word else value
+    return _one_line(found)
 
 
 def _one_line(text: str) -> str:

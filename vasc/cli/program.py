@@ -94,7 +94,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stdout.flush()
     except SystemExit as error:
         # the library that reads the command line makes this of some errors
-        return end_of(error.__context__ or error, with_traceback=DEBUG in own)
+        cause = error.__context__ or error
+        return end_of(cause, with_traceback=DEBUG in own, arguments=own)
     except BaseException as error:
-        return end_of(error, with_traceback=DEBUG in own)
+        return end_of(error, with_traceback=DEBUG in own, arguments=own)
     return code if isinstance(code, int) else 0

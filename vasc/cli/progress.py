@@ -45,6 +45,10 @@ class ProgressLine:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
+        self.clear()
+
+    def clear(self) -> None:
+        """Take the line away, until there is something new to write."""
         if self.is_shown:
             self._write("")
 

@@ -1,16 +1,12 @@
 """``vasc run``: grow a leaf and record it."""
 
+import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from vasc.cli.options import AsJson, Force, MoreSteps, Quiet
-
-if TYPE_CHECKING:
-    from vasc.config import Experiment
-    from vasc.config.regime import Regime
-
 
 EXAMPLES = (
     "vasc run poplar-leaf",
@@ -49,12 +45,12 @@ def run(
     as_json: AsJson = False,
 ) -> None:
     """Run an experiment: record every step, and draw the last one."""
+    from vasc.cli.announcement import Announcement
     from vasc.cli.interrupts import Interrupts
     from vasc.cli.progress import ProgressLine
     from vasc.cli.start import load_numba
     from vasc.cli.summary import end_if_interrupted, print_summary
     from vasc.config import load, parse_override
-    from vasc.config.regime import regime
     from vasc.timeline.storage import check_output
 
     if figure is not None and no_figure:
@@ -62,23 +58,22 @@ def run(
     overrides = [parse_override(change) for change in changes or ()]
     experiment = load(config, [*overrides, *([] if seed is None else [(("seed",), seed)])])
     output = Path(f"{experiment.name}.h5") if output is None else output
+    check_folder(output)
     check_output(output, force=force)
     figure = None if no_figure else figure or output.with_suffix(".png")
     check_outputs(config, output, figure, force=force)
-    expected = regime(experiment.parameters)
-    if not (quiet or as_json):
-        _print_expected(experiment, expected)
 
     from vasc import experiment as experiments
 
     with Interrupts() as interrupts, ProgressLine(quiet=quiet) as progress:
         load_numba()
+        announced = () if quiet or as_json else (Announcement(experiment, progress),)
         summary = experiments.run(
             experiment,
             output,
             force=force,
             steps=steps,
-            observers=[progress],
+            observers=[*announced, progress],
             should_stop=interrupts.should_stop,
         )
     end_if_interrupted(summary, interrupts)
@@ -105,6 +100,7 @@ def check_outputs(config: str, output: Path, figure: Path | None, *, force: bool
 
     named = [("config", Path(config)), ("timeline", output)]
     if figure is not None:
+        check_folder(figure)
         named.append(("picture", figure))
     for index, (kind, path) in enumerate(named[1:], start=1):
         for other_kind, other in named[:index]:
@@ -127,29 +123,33 @@ def check_picture(figure: Path, *, force: bool) -> None:
     """
     from vasc.errors import OutputError
 
-    if not figure.parent.is_dir():
-        raise OutputError(f"{figure}: the folder {str(figure.parent)!r} does not exist")
+    check_folder(figure)
     if figure.is_dir():
         raise OutputError(f"{figure}: is a folder")
     if figure.exists() and not force:
         raise OutputError(f"{figure}: exists already; use --force to replace it")
 
 
+def check_folder(path: Path) -> None:
+    """Refuse a file whose folder does not exist, or into which nothing can be written.
+
+    Raises
+    ------
+    OutputError
+        If no file of that name can be made there.
+    """
+    from vasc.errors import OutputError
+
+    if not path.parent.is_dir():
+        raise OutputError(f"{path}: the folder {str(path.parent)!r} does not exist")
+    if not os.access(path.parent, os.W_OK | os.X_OK):
+        raise OutputError(f"{path}: the folder {str(path.parent)!r} cannot be written to")
+    try:
+        path.exists()
+    except (OSError, ValueError) as error:
+        raise OutputError(f"{str(path)[:80]!r}: is not the name of a file: {error}") from error
+
+
 def _is_same(path: Path, other: Path) -> bool:
     """Tell whether two names lead to one file."""
     return other.exists() and path.samefile(other)
-
-
-def _print_expected(experiment: "Experiment", expected: "Regime") -> None:
-    """Write what is run, and what pattern to expect of it."""
-    from vasc.cli.failures import complain
-
-    parameters = experiment.parameters
-    typer.echo(
-        f"{experiment.name}: {experiment.kind} venation, {parameters.growth.kind} growth,"
-        f" seed {parameters.seed}"
-    )
-    for sentence in expected.sentences:
-        typer.echo(f"  {sentence}")
-    for warning in expected.warnings:
-        complain(f"warning: {warning}")

@@ -1,5 +1,6 @@
 """``vasc show``: what a recorded run is."""
 
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -25,6 +26,7 @@ def show(
     as_json: AsJson = False,
 ) -> None:
     """Show what a run is, how it was made, its sizes and events."""
+    refuse_folders(path)
     if check:
         _check(path, as_json=as_json)
         return
@@ -98,12 +100,9 @@ def _print(timeline: "Timeline", path: Path) -> None:
 def _check(path: Path, *, as_json: bool) -> None:
     """Validate the file; findings end the program with 1."""
     from vasc.cli.printing import print_json
-    from vasc.errors import TimelineError
     from vasc.timeline import validate
 
-    if not path.is_file():
-        # no finding about a timeline, but bad input
-        raise TimelineError(f"{path}: no such file")
+    refuse_strangers(path)
     findings = validate(path)
     if as_json:
         print_json({"findings": findings, "pass": not findings})
@@ -114,3 +113,49 @@ def _check(path: Path, *, as_json: bool) -> None:
         typer.echo(f"{path}: keeps to its specification")
     if findings:
         raise typer.Exit(1)
+
+
+def refuse_folders(path: Path) -> None:
+    """Refuse a folder in the place of a run.
+
+    Raises
+    ------
+    TimelineError
+        If it is one.
+    """
+    from vasc.errors import TimelineError
+
+    if path.is_dir():
+        raise TimelineError(f"{path}: is a folder; a recorded run is a file")
+
+
+def refuse_strangers(path: Path) -> None:
+    """Refuse a file that never was a timeline: bad input, no finding about a run.
+
+    A damaged timeline is none of these: it still begins as HDF5, and has its
+    format or its frames.
+
+    Raises
+    ------
+    TimelineError
+        If there is no such file, or it is something else.
+    """
+    from vasc.errors import TimelineError
+    from vasc.timeline import guard
+    from vasc.timeline.layout import COMMITTED, FORMAT
+
+    try:
+        with path.open("rb") as opened:
+            is_hdf5 = opened.read(len(guard.SIGNATURE)) == guard.SIGNATURE
+    except FileNotFoundError as error:
+        raise TimelineError(f"{path}: no such file") from error
+    except OSError as error:
+        raise TimelineError(f"{path}: cannot be opened: {error.strerror or error}") from error
+    if not is_hdf5:
+        raise TimelineError(f"{path}: is not an HDF5 file, so it is no timeline")
+    is_known = True
+    # what cannot even be asked is damaged
+    with suppress(TimelineError, *guard.TRANSIENT), guard.open_for_reading(path) as file:
+        is_known = guard.attribute(file, "format") == FORMAT or COMMITTED in file
+    if not is_known:
+        raise TimelineError(f"{path}: is an HDF5 file, but not a timeline (format {FORMAT!r})")

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 from vasc.config.attachments import missing_files, packed, unpacked
 from vasc.config.bundled import find_config
+from vasc.config.limits import blade_problems, size_problems
 from vasc.config.overrides import Override, overridden
 from vasc.config.reading import parse, read_text, refuse_deep
 from vasc.config.values import assignment
-from vasc.errors import ConfigError, TimelineError
+from vasc.errors import ConfigError, OutlineError, TimelineError, VascError
 
 if TYPE_CHECKING:
-    from vasc.models.base import Venation
+    from vasc.models.base import Model, Venation
 
 FILES_KEY = "files"
 """Key of a timeline's config under which the referenced files travel."""
@@ -36,6 +37,8 @@ class Experiment:
         What the files that the config refers to are relative to.
     files : dict
         The referenced files by name, packed as texts.
+    label : str
+        What messages about it begin with; the name if it is empty.
     """
 
     name: str
@@ -43,6 +46,7 @@ class Experiment:
     toml: str
     folder: Path
     files: dict[str, str] = field(default_factory=dict, repr=False)
+    label: str = ""
 
     @property
     def kind(self) -> str:
@@ -60,6 +64,24 @@ class Experiment:
     def record(self) -> dict[str, Any]:
         """What a timeline keeps, so that the run can be repeated from it alone."""
         return self.tables | ({FILES_KEY: self.files} if self.files else {})
+
+    def model(self) -> "Model":
+        """Give the model, ready to run.
+
+        Raises
+        ------
+        ConfigError
+            If its outline, or the sources it is given, cannot be used; every
+            line begins with the label.
+        """
+        label = self.label or self.name
+        try:
+            return self.parameters.model(self.folder)
+        except ConfigError as error:
+            problems = [f"{label}: {problem}" for problem in error.problems]
+            raise ConfigError(problems) from error
+        except VascError as error:
+            raise ConfigError(f"{label}: {error}") from error
 
 
 def load(source: str | Path, overrides: Iterable[Override] = ()) -> Experiment:
@@ -128,7 +150,7 @@ def load_text(
         refuse_deep(tables, label)
     parameters = _checked(tables, folder, label)
     toml = _rewritten(tables, changes) if changes else text
-    return Experiment(name, parameters, toml, folder, packed(tables, folder))
+    return Experiment(name, parameters, toml, folder, packed(tables, folder), label)
 
 
 @contextmanager
@@ -159,23 +181,37 @@ def experiment_from_record(record: Mapping[str, Any], *, name: str) -> Iterator[
     if not isinstance(files, dict):
         raise TimelineError(f"{name}: the recorded files are damaged")
     with unpacked(tables, files) as (renamed, folder):
-        parameters = _checked(renamed, folder, f"{name}: config")
-        yield Experiment(name, parameters, "", folder, files)
+        label = f"{name}: config"
+        parameters = _checked(renamed, folder, label)
+        yield Experiment(name, parameters, "", folder, files, label)
 
 
 def _checked(tables: dict[str, Any], folder: Path, label: str) -> "Venation":
-    """Check tables and files; every problem becomes one line that begins with the label."""
+    """Check tables, files and the blade; a problem becomes one line that begins with the label."""
     from vasc.config.schema import parameters_from
 
     problems: list[str] = []
     try:
-        parameters = parameters_from(tables)
+        parameters: Any = parameters_from(tables)
     except ConfigError as error:
         problems += error.problems
     problems += missing_files(tables, folder)
+    problems = problems or _geometry_problems(parameters, folder)
     if problems:
         raise ConfigError([f"{label}: {problem}" for problem in problems])
-    return parameters  # type: ignore[return-value]
+    return parameters
+
+
+def _geometry_problems(parameters: "Venation", folder: Path) -> list[str]:
+    """Describe a blade that cannot be made, or is of a size that no run can hold."""
+    if problems := size_problems(parameters):
+        return problems
+    if parameters.domain is None:
+        return []  # the model tells whether key-frames make a blade
+    try:
+        return blade_problems(parameters, parameters.domain.blade(folder))
+    except OutlineError as error:
+        return [str(error)]
 
 
 def _rewritten(tables: dict[str, Any], overrides: list[Override]) -> str:

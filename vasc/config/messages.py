@@ -34,7 +34,12 @@ def problems(error: "ValidationError", tables: dict[str, Any], root: Schema) -> 
     """
     lines: dict[Path, str] = {}
     off_branch: dict[Path, str] = {}
-    for detail in error.errors(include_url=False):
+    details = error.errors(include_url=False)
+    missing = {tuple(detail["loc"]) for detail in details if detail["type"] == "missing"}
+    misspelt = _misspelt(details, missing, tables, root)
+    for detail in details:
+        if tuple(detail["loc"]) in misspelt:
+            continue
         place = find_place(detail["loc"], tables, root)
         if place.is_off_branch:
             off_branch[place.path] = _wrong_value(place, root)
@@ -49,6 +54,18 @@ def problems(error: "ValidationError", tables: dict[str, Any], root: Schema) -> 
     return lines
 
 
+def _misspelt(details: Any, missing: set[Any], tables: dict[str, Any], root: Schema) -> set[Any]:
+    """Give the locations of missing keys that are there, under a name nearly the same."""
+    found = set()
+    for detail in details:
+        if detail["type"] == "extra_forbidden":
+            place, around = find_place(detail["loc"], tables, root), tuple(detail["loc"][:-1])
+            key = str(place.path[-1])
+            if not _owning_tables(place, key, root):
+                found |= {(*around, name) for name in _close(key, _keys_of(place))} & missing
+    return found
+
+
 def unknown_kind(kind: Any, known: Sequence[str]) -> str:
     """Describe a ``kind`` at the top of a config that names no model."""
     if kind is ABSENT:
@@ -60,8 +77,13 @@ def unknown_kind(kind: Any, known: Sequence[str]) -> str:
 
 def nearest(word: Any, known: Iterable[str]) -> str:
     """Give ``; nearest: ...`` for the known word most like this one, or nothing."""
-    close = difflib.get_close_matches(str(word), list(known), n=1, cutoff=0.5)
+    close = _close(word, known)
     return f"; nearest: {written(close[0])}" if close else ""
+
+
+def _close(word: Any, known: Iterable[str]) -> list[str]:
+    """Give the known word most like this one, or none."""
+    return difflib.get_close_matches(str(word), list(known), n=1, cutoff=0.5)
 
 
 def _described(detail: Any, place: Place, tables: dict[str, Any], root: Schema) -> tuple[Path, str]:
@@ -119,13 +141,23 @@ def _missing(place: Place, root: Schema) -> str:
 
 def _unknown_key(place: Place, tables: dict[str, Any], root: Schema) -> str:
     """Describe a key that does not exist, and the one that was probably meant."""
-    key, known = str(place.path[-1]), list((place.table or {}).get("properties", ()))
+    key, known = str(place.path[-1]), _keys_of(place)
     kind = (place.table or {}).get("properties", {}).get("kind", {}).get("const")
     of_kind = f" for kind {written(kind)}" if kind and len(place.path) > 1 else ""
     line = f"{assignment(place.path, place.value)}: unknown key{of_kind}"
-    if owners := [name for name in _owners(key, root) if name != dotted(place.path[:-1])]:
+    if owners := _owning_tables(place, key, root):
         return f"{line}; it belongs in [{'] or ['.join(owners)}]"
     return line + (nearest(key, known) or f"; allowed: {', '.join(known)}")
+
+
+def _keys_of(place: Place) -> list[str]:
+    """Give the keys of the table that a key is in."""
+    return list((place.table or {}).get("properties", ()))
+
+
+def _owning_tables(place: Place, key: str, root: Schema) -> list[str]:
+    """Give the other tables that have a key."""
+    return [name for name in _owners(key, root) if name != dotted(place.path[:-1])]
 
 
 def _owners(key: str, root: Schema) -> list[str]:

@@ -5,7 +5,7 @@ import tomllib
 from collections.abc import Iterable
 from typing import Any
 
-from vasc.config.values import dotted
+from vasc.config.values import dotted, shortened
 from vasc.errors import ConfigError
 
 Override = tuple[tuple[str, ...], Any]
@@ -39,7 +39,9 @@ def parse_override(text: str) -> Override:
     """
     key, equals, value = text.partition("=")
     if not equals:
-        raise ConfigError(f"--set {text}: must be KEY=VALUE, as in growth.final_length=2000")
+        raise ConfigError(
+            f"--set {shortened(text)}: must be KEY=VALUE, as in growth.final_length=2000"
+        )
     return _keys(key.strip(), text), _value(value.strip())
 
 
@@ -87,7 +89,10 @@ def _keys(key: str, text: str) -> tuple[str, ...]:
         ((name, table),) = table.items()
         keys.append(name)
     if table != 0 or not keys:
-        raise ConfigError(f"--set {text}: {key!r} is not a key, as growth.final_length is")
+        raise ConfigError(
+            f"--set {shortened(text)}: {shortened(repr(key))} is not a key,"
+            " as growth.final_length is"
+        )
     return tuple(keys)
 
 

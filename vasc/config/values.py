@@ -31,7 +31,7 @@ def dotted(path: Sequence[str | int]) -> str:
         else:
             key = part if _BARE_KEY.fullmatch(part) else json.dumps(part)
             text += f".{key}" if text else key
-    return _shortened(text, 2 * LONGEST_VALUE)
+    return shortened(text, 2 * LONGEST_VALUE)
 
 
 def written(value: Any) -> str:
@@ -42,7 +42,7 @@ def written(value: Any) -> str:
     >>> written({"kind": "none", "flag": True})
     '{ kind = "none", flag = true }'
     """
-    return _shortened(_written(value, depth=0), LONGEST_VALUE)
+    return shortened(_written(value, depth=0), LONGEST_VALUE)
 
 
 def assignment(path: Sequence[str | int], value: Any) -> str:
@@ -116,8 +116,14 @@ def _first(items: Any, limit: int = LONGEST_VALUE) -> list[Any]:
     return [item for item, _ in zip(items, range(limit), strict=False)]
 
 
-def _shortened(text: str, longest: int) -> str:
-    """Cut the middle out of a long text."""
+def shortened(text: str, longest: int = LONGEST_VALUE) -> str:
+    """Cut the middle out of a text that is longer than ``longest``, which is at least 30.
+
+    Examples
+    --------
+    >>> shortened("9" * 20_000, 30)
+    '999999999999999 ... 9999999999'
+    """
     if len(text) <= longest:
         return text
     return f"{text[: longest - 15]} ... {text[-10:]}"

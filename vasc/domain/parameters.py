@@ -1,10 +1,10 @@
 """The [domain] table: which blade a run begins with."""
 
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from vasc.arrays import Points
 from vasc.domain.blade import Blade
@@ -24,6 +24,9 @@ ONLY_FOR = {
     "smooth": ("points", "file"),
 }
 """Keys that mean something for some kinds of outline only."""
+
+
+SeedPoints = Annotated[list[Pair], Field(min_length=1)]
 
 
 class BladeParameters(Parameters):
@@ -63,7 +66,7 @@ class BladeParameters(Parameters):
         "Points of a named or smoothed outline.", default=320, ge=16, le=20_000
     )
     teeth: TeethParameters | None = quantity("A toothed margin.", default=None)
-    seeds: list[Pair] | SeedRowParameters | Literal["lowest"] | None = quantity(
+    seeds: SeedPoints | SeedRowParameters | Literal["lowest"] | None = quantity(
         "Seed nodes: a list of points, a row along the base, or the lowest point of each part; "
         "by default the attachment.",
         unit="blade length",
@@ -74,7 +77,13 @@ class BladeParameters(Parameters):
     @classmethod
     def _name_parameters(cls, table: Any) -> Any:
         """Let the table of parameters say which shape it is for."""
-        if not isinstance(table, dict) or not isinstance(table.get("shape"), str):
+        if not isinstance(table, dict):
+            return table
+        if "shape" not in table and "parameters" in table:
+            # before the parameters are looked at: they would miss the shape they are for
+            given = [key for key in ("points", "file") if key in table] or ["no outline"]
+            raise ValueError(f"'parameters' is for shape, not for {' and '.join(given)}")
+        if not isinstance(table.get("shape"), str):
             return table
         if table["shape"] not in SHAPES:
             return table
