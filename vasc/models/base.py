@@ -149,7 +149,8 @@ class Venation(Parameters):
                 "domain: key-frames tell the blade, so that growth.kind = 'keyframed' allows no"
                 " [domain]"
                 if self.domain
-                else f"domain is missing; growth.kind = {growth.kind!r} needs it"
+                else f"domain: missing; growth.kind = {growth.kind!r} needs a table [domain] with the"
+                " length of the blade"
             )
         if isinstance(growth, LinearGrowthParameters) and self.domain and (
             growth.final_length < self.domain.length
