@@ -6,9 +6,9 @@ from typing import Literal
 
 import numpy as np
 
-from vasc.arrays import NULL, Ids
+from vasc.arrays import Ids
 from vasc.events import EventKind
-from vasc.growth import Growth
+from vasc.growth import Growth, Similarity
 from vasc.models.perception import Cut
 from vasc.network import Origin, SegmentKind
 from vasc.parameters import Parameters, quantity
@@ -48,13 +48,13 @@ class Subdivision(Refinement):
 
     Parameters
     ----------
-    growth : Growth
+    growth : Similarity
         The growing blade.
     longest : float
         Greatest length of a segment, in D.
     """
 
-    def __init__(self, growth: Growth, longest: float) -> None:
+    def __init__(self, growth: Similarity, longest: float) -> None:
         self.longest = longest
         self._scales = np.array([growth.scale(step) for step in range(growth.last_step + 1)])
         self._due: dict[int, list[Ids]] = {}
@@ -84,14 +84,41 @@ class Subdivision(Refinement):
             self._due.setdefault(moment, []).append(ids[is_ever][due == moment])
 
 
+class DeformedSubdivision(Refinement):
+    """Halves every segment longer than a limit, where segments are stretched differently.
+
+    Parameters
+    ----------
+    longest : float
+        Greatest length of a segment, in D.
+    """
+
+    def __init__(self, longest: float) -> None:
+        self.longest = longest
+
+    def refine(
+        self, veins: Vasculature, moment: Moment, held: Ids, streams: Streams
+    ) -> Sequence[Cut]:
+        """Halve the segments that are too long, and the halves again if need be."""
+        limit = self.longest / moment.scale
+        while True:
+            ids = np.flatnonzero(~veins.refined[: veins.segments.n_rows]).astype(np.int32)
+            ends = veins.places("nodes")[veins.segments.arrays["nodes"][ids]]
+            lengths = np.sqrt(((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1))
+            if not (lengths > limit).any():
+                return ()
+            halve(veins, moment, ids[lengths > limit])
+
+
 def halve(veins: Vasculature, moment: Moment, ids: Ids) -> None:
     """Replace segments by two halves with a new node between them."""
     ends = veins.segments.arrays["nodes"][ids]
     places = veins.places("nodes")
     middles = 0.5 * (places[ends[:, 0]] + places[ends[:, 1]])
     near = veins.nodes.arrays["material"][ends[:, 0]]
+    causes = veins.nodes.arrays["source"][ends[:, 1]]
     rows = veins.add_nodes(
-        moment.step, *moment.embed(middles, near), ends[:, 0], NULL, Origin.REFINEMENT
+        moment.step, *moment.embed(middles, near), ends[:, 0], causes, Origin.REFINEMENT
     )
     nodes = np.arange(rows.start, rows.stop, dtype=np.int32)
     veins.has_child[nodes] = True
@@ -126,4 +153,6 @@ class SubdivisionParameters(Parameters):
     def refinement(self, growth: Growth, birth_distance: float, length: float) -> Refinement:
         """Give the refinement for a growing blade."""
         longest = self.longest or min(birth_distance, 2.0 * length)
-        return Subdivision(growth, longest)
+        if isinstance(growth, Similarity):
+            return Subdivision(growth, longest)
+        return DeformedSubdivision(longest)
