@@ -76,9 +76,7 @@ class Growth(ABC):
         """
 
     @abstractmethod
-    def embed(
-        self, places: Points, step: int, near: Points | None = None
-    ) -> tuple[Points, Points]:
+    def embed(self, places: Points, step: int, near: Points | None = None) -> tuple[Points, Points]:
         """Give the material points at places at a step, and the positions of those."""
 
     @abstractmethod
@@ -127,9 +125,7 @@ class Similarity(Growth):
         """Give the material points that are at positions at a step, shape (n, 2)."""
         return position / self.scale(step)
 
-    def embed(
-        self, places: Points, step: int, near: Points | None = None
-    ) -> tuple[Points, Points]:
+    def embed(self, places: Points, step: int, near: Points | None = None) -> tuple[Points, Points]:
         """Give the places themselves, which are material points, and their positions."""
         return places, places * self.scale(step)
 
@@ -182,9 +178,7 @@ class Deformation(Growth):
             self._latest = step, Blade.sound(rings, self.position(self.seeds, step))
         return self._latest[1]
 
-    def embed(
-        self, places: Points, step: int, near: Points | None = None
-    ) -> tuple[Points, Points]:
+    def embed(self, places: Points, step: int, near: Points | None = None) -> tuple[Points, Points]:
         """Give the material points nearest to places, and their positions.
 
         Outside the blade these are points of the margin.
