@@ -16,12 +16,12 @@ from vasc.events import EventKind, StopReason
 from vasc.models.base import Model
 from vasc.network import Origin
 from vasc.simulation import Observer, simulate
-from vasc.state import TABLE_COLUMNS, State
+from vasc.state import TABLE_COLUMNS, Places, State
 from vasc.streams import Streams
-from vasc.timeline import Recorder, Timeline
+from vasc.timeline import Motion, Recorder, Timeline, motion_of
 
 FRAME_COLUMNS = ("time", "motion", "outline_motion")
-"""Columns of ``frames`` that a state gives under the same name."""
+"""Columns of ``frames`` that a state gives under the same name, if at all."""
 
 
 def never() -> bool:
@@ -75,7 +75,8 @@ class Summary:
 class Difference(NamedTuple):
     """The first value of a column that a second run gives differently.
 
-    The row is -1 when the columns differ in length or a whole is compared.
+    The row is -1 when a whole is compared. In the table ``motion``, of explicit
+    positions, it is counted from the first row of the step.
     """
 
     step: int
@@ -139,6 +140,7 @@ def run(
         seed=parameters.seed,
         blade=state.blade,
         stream_names=streams.names,
+        motion=motion_of(state),
         units=None if units is None else units.model_dump(mode="json"),
         force=force,
         record_perceived=parameters.record.perceived != "none",
@@ -234,12 +236,18 @@ def verify(path: str | Path, *, observers: Iterable[Observer] = ()) -> list[Diff
         if not timeline.n_frames:
             raise TimelineError(f"{path}: holds no step to compare")
         frames: dict[str, list[Any]] = {name: [] for name in ("counts", "streams", *FRAME_COLUMNS)}
+        places: dict[str, Difference] = {}
         for state in simulate(model, streams, observers=observers, max_steps=timeline.last_step):
             frames["streams"].append(streams.state())
             for name in ("counts", *FRAME_COLUMNS):
                 frames[name].append(getattr(state, name))
-        repeated = {name: np.array(rows) for name, rows in frames.items()}
+            _compare_places(timeline, state, places)
+        repeated = {name: np.array(rows) for name, rows in frames.items() if rows[0] is not None}
         found = [*_frame_differences(timeline, repeated), *_table_differences(timeline, state)]
+        found.extend(places.values())
+        if timeline.motion != motion_of(state):
+            said = [str(timeline.motion), str(motion_of(state))]
+            found.append(Difference(0, "", "motion", -1, *said))
         if timeline.is_complete != state.is_finished:
             said = [str(flag).lower() for flag in (timeline.is_complete, state.is_finished)]
             found.append(Difference(timeline.last_step, "", "complete", -1, *said))
@@ -314,10 +322,22 @@ def _stop_reason(state: State) -> str | None:
     return StopReason(int(state.rows("events", "subject")[rows[-1]])).name.lower()
 
 
+def _compare_places(timeline: Timeline, state: State, found: dict[str, Difference]) -> None:
+    """Compare the explicit positions of a step; the first difference of each kind is added."""
+    if state.places is None or timeline.motion != Motion.EXPLICIT:
+        return
+    for name in (one for one in Places._fields if one not in found):
+        recorded, repeated = timeline.places(name, state.step), getattr(state.places, name)
+        steps = np.full(max(len(recorded), len(repeated)), state.step)
+        for difference in _difference("motion", name, recorded, repeated, steps):
+            found[name] = difference
+
+
 def _frame_differences(timeline: Timeline, repeated: dict[str, NDArray]) -> Iterator[Difference]:
     """Compare the columns of ``frames``."""
     recorded = timeline.frames
-    for name in ("streams", *FRAME_COLUMNS):
+    # an explicit motion has no maps
+    for name in (one for one in ("streams", *FRAME_COLUMNS) if one in recorded and one in repeated):
         steps = np.arange(max(len(recorded[name]), len(repeated[name])))
         yield from _difference("frames", name, recorded[name], repeated[name], steps)
     for index, table in enumerate(TABLE_COLUMNS):

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vasc.areoles import AREOLE_COLUMNS, BOUNDARY_COLUMNS
+from vasc.areoles import AREOLE_COLUMNS, BOUNDARY_COLUMNS, AreoleSet, areoles_from_columns
 from vasc.arrays import Ids, Points, Table
 from vasc.domain import Blade
 from vasc.events import EVENT_COLUMNS, EventKind
@@ -21,9 +21,9 @@ TABLE_COLUMNS = {
     "sources": SOURCE_COLUMNS,
     "perceived": PERCEIVED_COLUMNS,
     "states": STATE_COLUMNS,
+    "events": EVENT_COLUMNS,
     "areoles": AREOLE_COLUMNS,
     "boundaries": BOUNDARY_COLUMNS,
-    "events": EVENT_COLUMNS,
 }
 """The append-only tables of a run, in the order of ``State.counts``."""
 
@@ -139,6 +139,16 @@ class State:
                 {name: self.rows("states", name) for name in STATE_COLUMNS},
                 self.n_rows("sources"),
             )[self.live],
+        )
+
+    @cached_property
+    def areoles(self) -> AreoleSet:
+        """The areoles at this step, in real size."""
+        return areoles_from_columns(
+            {name: self.rows("areoles", name) for name in AREOLE_COLUMNS},
+            {name: self.rows("boundaries", name) for name in BOUNDARY_COLUMNS},
+            {name: self.rows("events", name) for name in ("kind", "subject")},
+            self.positions("nodes"),
         )
 
 

@@ -1,6 +1,9 @@
-"""What tissue can be: states of nodes and sources, and the changes that are legal."""
+"""What tissue can be: states of nodes, sources and canals, and the changes that are legal."""
 
 from enum import IntEnum
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from vasc.arrays import Column
 
@@ -32,20 +35,20 @@ class NodeState(IntEnum):
 
 
 class CanalState(IntEnum):
-    """State of the tissue between a source and one of its relative neighbours."""
+    """State of a canal: the cells between a source and a vein that may become a strand."""
 
     GROUND = 0
-    """Not differentiated; every canal begins so."""
+    """Ground tissue; each canal begins in it."""
     PRE_PATTERN = 1
-    """A polarized canal, induced by the source."""
+    """Chosen by the pattern that precedes the veins."""
     INBOUND = 2
-    """Differentiating from the vein toward the source."""
+    """Differentiates from the vein toward the source."""
     OUTBOUND = 3
-    """Differentiating from the drained source toward the vein."""
+    """Differentiates from the source toward the vein."""
     VEIN = 4
-    """Differentiated along its whole length."""
+    """Differentiated vein from end to end."""
     ARRESTED = 5
-    """Ended blindly: the last cell stays pre-patterned."""
+    """Differentiates no further; its strand ends blindly."""
 
 
 TRANSITIONS: dict[Kind, frozenset[tuple[int, int]]] = {
@@ -70,21 +73,42 @@ TRANSITIONS: dict[Kind, frozenset[tuple[int, int]]] = {
 }
 """Legal changes (from, to) of each kind; a birth in the first state is no change."""
 
+FIRST: dict[Kind, IntEnum] = {
+    Kind.NODE: NodeState.VEIN,
+    Kind.SOURCE: SourceState.ACTIVE,
+    Kind.CANAL: CanalState.GROUND,
+}
+"""The state that each kind is born in."""
 
-def check_transition(kind: Kind, before: int, after: int) -> None:
-    """Assert that a change of state is legal.
+STATE_COLUMNS = {
+    "step": Column("i4", "step of the change"),
+    "what": Column("i1", "0 node, 1 source, 2 canal"),
+    "id": Column("i4", "row of the node or source, or of the canal in perceived"),
+    "state": Column("i1", "new state"),
+}
+
+
+def check_transitions(kind: Kind, before: ArrayLike, after: ArrayLike) -> None:
+    """Make sure that changes of state are legal.
+
+    Parameters
+    ----------
+    kind : Kind
+        What changes.
+    before, after : array_like of int
+        The states of each before and after, of shapes that broadcast.
 
     Raises
     ------
     AssertionError
-        If it is not: the program is wrong, never its input.
+        If a change is not among ``TRANSITIONS``; a model that makes one is wrong.
+
+    Examples
+    --------
+    >>> check_transitions(Kind.CANAL, CanalState.PRE_PATTERN, [2, 3])
     """
-    assert (before, after) in TRANSITIONS[kind], f"{kind.name}: {before} -> {after} is not legal"
-
-
-STATE_COLUMNS = {
-    "step": Column("i4", "step of the change"),
-    "what": Column("i1", "0 node, 1 source, 2 canal: a row of perceived"),
-    "id": Column("i4", "row of the node, source or canal"),
-    "state": Column("i1", "new state"),
-}
+    pairs = np.stack(np.broadcast_arrays(before, after), axis=-1).reshape(-1, 2)
+    for old, new in np.unique(pairs, axis=0).tolist():
+        if (old, new) not in TRANSITIONS[kind]:
+            # not by an assert statement, which python -O leaves out
+            raise AssertionError(f"no {kind.name.lower()} may change from state {old} to {new}")

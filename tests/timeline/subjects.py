@@ -28,7 +28,7 @@ with open(watched, "r+b") as file:
         struct.pack_into("q", shared, 0, step)
         if signals:
             raise KeyboardInterrupt
-    getattr(synthetic, verb)(path, {last_step}, watch=watch)
+    getattr(synthetic, verb)(path, {last_step}, watch=watch, kind=synthetic.{kind})
 """
 
 
@@ -73,7 +73,23 @@ class Subject:
 
 
 SUBJECTS = [
-    Subject("batches", SYNTHETIC.format(batch=64, last_step=2500), batch=64, seconds=0.6),
-    Subject("every-step", SYNTHETIC.format(batch=1, last_step=600), batch=1, seconds=0.6),
+    Subject(
+        "batches",
+        SYNTHETIC.format(batch=64, last_step=2500, kind="SyntheticRun"),
+        batch=64,
+        seconds=0.6,
+    ),
+    Subject(
+        "every-step",
+        SYNTHETIC.format(batch=1, last_step=600, kind="SyntheticRun"),
+        batch=1,
+        seconds=0.6,
+    ),
+    Subject(
+        "explicit",
+        SYNTHETIC.format(batch=16, last_step=400, kind="ExplicitRun"),
+        batch=16,
+        seconds=0.6,
+    ),
 ]
 """A real run is added here in the same form."""

@@ -8,13 +8,14 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial import ConvexHull
 
 from vasc.domain import Blade
 from vasc.events import EventKind, StopReason
-from vasc.state import State, Tables, affine, moved, source_states
-from vasc.states import Kind, SourceState
+from vasc.state import Places, State, Tables, affine, moved, source_states
+from vasc.states import CanalState, Kind, SourceState, check_transitions
 from vasc.streams import Streams
-from vasc.timeline import Recorder, Timeline
+from vasc.timeline import Motion, Recorder, Timeline
 
 NAMES = ("placement",)
 SEED = 5
@@ -29,6 +30,8 @@ def blade() -> Blade:
 
 class SyntheticRun:
     """Isogonic growth by 1 % of the first size a step; rows appended at given rates."""
+
+    motion = Motion.AFFINE
 
     def __init__(
         self, last_step: int, *, nodes: int = 5, perceived: int = 4, sources: int = 3
@@ -48,15 +51,21 @@ class SyntheticRun:
         while self.step < self.last_step:
             yield self._advance(streams)
 
-    def _state(self) -> State:
+    def _where(self) -> dict:
+        """Give the fields of a state that say where everything is."""
         scale = 1.0 + 0.01 * self.step
+        return {
+            "blade": self.blade.scaled(scale),
+            "motion": affine(scale),
+            "outline_motion": affine(scale),
+        }
+
+    def _state(self) -> State:
         states = self._source_states()
         return State(
             step=self.step,
             time=0.5 * self.step,
-            blade=self.blade.scaled(scale),
-            motion=affine(scale),
-            outline_motion=affine(scale),
+            **self._where(),
             counts=self.tables.counts(),
             live=np.flatnonzero(states != SourceState.DRAINED).astype(np.int32),
             tables=self.tables,
@@ -83,6 +92,7 @@ class SyntheticRun:
         self._extend(random)
         self._perceive(random)
         self._reach(random)
+        self._differentiate(random)
         if self.step == self.last_step:
             self._event(EventKind.RUN_FINISHED, int(StopReason.NO_SOURCES), -1)
         return self._state()
@@ -145,6 +155,92 @@ class SyntheticRun:
     def _moved(self, material: np.ndarray) -> np.ndarray:
         return moved(material, affine(1.0 + 0.01 * self.step))
 
+    def _differentiate(self, random: np.random.Generator) -> None:
+        """Nothing more happens in the plain run."""
+
+
+class ExplicitRun(SyntheticRun):
+    """A blade that bends as it grows, so that no affine map moves it; with areoles and canals.
+
+    The rows of ``perceived`` are canals, and areoles are convex hulls of nodes.
+    """
+
+    motion = Motion.EXPLICIT
+
+    def _moved(self, material: np.ndarray) -> np.ndarray:
+        x, y = (1.0 + 0.01 * self.step) * material.T
+        return np.stack([x, y + 0.2 * np.sin(0.1 * self.step) * x * x], axis=1)
+
+    def _where(self) -> dict:
+        nodes, sources = (
+            self._moved(self.tables[name].view("material")) for name in ("nodes", "sources")
+        )
+        outline = self._moved(SQUARE)
+        return {
+            "blade": Blade.sound([outline], nodes[:1]),
+            "motion": None,
+            "outline_motion": None,
+            "places": Places(nodes, sources, outline),
+        }
+
+    def _differentiate(self, random: np.random.Generator) -> None:
+        for _ in range(3):
+            self._change_canal(random)
+        chance = random.random()
+        whole = self._state().areoles
+        large = [k for k, ring in enumerate(whole.boundaries) if len(ring) > 3]
+        if chance < 0.3:
+            self._enclose(-1, random.integers(0, self.tables["nodes"].n_rows, 12))
+        elif chance < 0.5 and large:
+            self._split(int(whole.ids[large[0]]), whole.boundaries[large[0]])
+        if self.tables["sources"].n_rows and len(whole.ids):
+            self._event(EventKind.SOURCE_ENCLOSED, 0, int(whole.ids[-1]))
+        if self.step == self.last_step:
+            self._event(EventKind.MESOPHYLL_EVENT, -1, -1)
+            self._retire(self.tables["nodes"].n_rows - 1)
+
+    def _change_canal(self, random: np.random.Generator) -> None:
+        n_canals = self.tables["perceived"].n_rows
+        if not n_canals:
+            return
+        canal, states = int(random.integers(0, n_canals)), self.tables["states"]
+        is_its = (states.view("what") == Kind.CANAL) & (states.view("id") == canal)
+        before = [CanalState.GROUND, *states.view("state")[is_its].tolist()][-1]
+        after = {
+            CanalState.GROUND: CanalState.PRE_PATTERN,
+            CanalState.PRE_PATTERN: [CanalState.INBOUND, CanalState.OUTBOUND][canal % 2],
+            CanalState.INBOUND: CanalState.VEIN,
+            CanalState.OUTBOUND: [CanalState.VEIN, CanalState.ARRESTED][canal % 4 // 2],
+        }.get(before)
+        if after is not None:
+            check_transitions(Kind.CANAL, before, after)
+            states.append(step=self.step, what=Kind.CANAL, id=canal, state=after)
+            node = int(random.integers(0, self.tables["nodes"].n_rows))
+            kinds = [EventKind.STRAND_EXTENDED, EventKind.CANAL_RETARGETED]
+            self._event(kinds[node % 2], canal, node)
+
+    def _enclose(self, parent: int, nodes: np.ndarray) -> None:
+        """An areole closes around nodes, in open tissue or as a half of another one."""
+        positions = self._moved(self.tables["nodes"].view("material"))
+        nodes = np.unique(nodes)
+        ring = nodes[ConvexHull(positions[nodes]).vertices]
+        segment = self.tables["segments"].n_rows - 1
+        rows = self.tables["areoles"].append(birth=self.step, parent=parent, segment=segment)
+        self.tables["boundaries"].append(areole=rows.start, node=ring)
+        if parent < 0:
+            self._event(EventKind.AREOLE_BORN, rows.start, segment)
+
+    def _split(self, areole: int, ring: np.ndarray) -> None:
+        self._event(EventKind.AREOLE_SPLIT, areole, self.tables["segments"].n_rows - 1)
+        half = len(ring) // 2
+        self._enclose(areole, ring[: half + 1])
+        self._enclose(areole, np.append(ring[half:], ring[0]))
+
+    def _retire(self, node: int) -> None:
+        for segment in np.flatnonzero((self.tables["segments"].view("nodes") == node).any(axis=1)):
+            self._event(EventKind.SEGMENT_REFINED, int(segment), 0)
+        self._event(EventKind.NODE_RETIRED, node, -1)
+
 
 def create(path: Path, **options: object) -> Recorder:
     settings: dict = {
@@ -166,11 +262,12 @@ def record(
     *,
     stop_after: int | None = None,
     watch: Callable[[int], object] = lambda step: None,
+    kind: type[SyntheticRun] = SyntheticRun,
     **options: object,
 ) -> None:
     """Record a run, or its first ``stop_after`` steps; ``watch`` sees each observed step."""
-    run, streams = SyntheticRun(last_step), Streams(SEED, NAMES)
-    with create(path, **options) as recorder:
+    run, streams = kind(last_step), Streams(SEED, NAMES)
+    with create(path, motion=kind.motion, **options) as recorder:
         for state in run.states(streams):
             recorder.observe(state, streams)
             watch(state.step)
@@ -180,10 +277,14 @@ def record(
 
 
 def resume(
-    path: Path, last_step: int, *, watch: Callable[[int], object] = lambda step: None
+    path: Path,
+    last_step: int,
+    *,
+    watch: Callable[[int], object] = lambda step: None,
+    kind: type[SyntheticRun] = SyntheticRun,
 ) -> None:
     """Finish a run from its last committed frame."""
-    run, streams = SyntheticRun(last_step), Streams(SEED, NAMES)
+    run, streams = kind(last_step), Streams(SEED, NAMES)
     with Timeline(path) as timeline:
         if timeline.n_frames:
             run.restore(timeline.tables(), timeline.last_step)
@@ -192,6 +293,9 @@ def resume(
         for state in run.states(streams):
             recorder.observe(state, streams)
             watch(state.step)
+        if run.step == last_step:
+            # also a run killed after its last step, before the file was marked
+            recorder.close(complete=True)
 
 
 def contents(path: Path, n_frames: int | None = None) -> dict[str, bytes]:
@@ -199,6 +303,9 @@ def contents(path: Path, n_frames: int | None = None) -> dict[str, bytes]:
     with Timeline(path) as timeline:
         n = timeline.n_frames if n_frames is None else n_frames
         found = {f"frames/{name}": rows[:n].tobytes() for name, rows in timeline.frames.items()}
+        for name in timeline.n_places:
+            steps = [timeline.places(name, step).tobytes() for step in range(n)]
+            found[f"motion/{name}"] = b"".join(steps)
         for name, table in timeline.tables(n - 1).tables.items():
             for column in table.columns:
                 found[f"{name}/{column}"] = table.view(column).tobytes()

@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 
 from vasc.events import EventKind, StopReason
-from vasc.timeline import layout, rules, validation
+from vasc.timeline import areole_rules, layout, motion_rules, rules, validation
 
 PAGE = (Path(__file__).parents[2] / "docs" / "timeline-format.md").read_text(encoding="utf-8")
 SOURCES = "".join(
-    Path(module.__file__).read_text(encoding="utf-8") for module in (rules, validation)
+    Path(module.__file__).read_text(encoding="utf-8")
+    for module in (rules, motion_rules, areole_rules, validation)
 )
 
 
@@ -22,9 +23,16 @@ def cells(name):
     return [cell.strip() for cell in rows[0].strip("|").split("|")]
 
 
-@pytest.mark.parametrize("name", layout.growing_columns(1))
+COLUMNS = {
+    name: column
+    for motion in layout.Motion
+    for name, column in layout.growing_columns(1, motion).items()
+}
+
+
+@pytest.mark.parametrize("name", COLUMNS)
 def test_every_growing_column_has_its_type_on_the_page(name):
-    column = layout.growing_columns(1)[name]
+    column = COLUMNS[name]
     kind = np.dtype(column.dtype).str[1:]
     shape = str(column.shape).replace("(1, 6)", "(s, 6)") if column.shape else ""
     assert cells(name)[1] == f"{kind} {shape}".strip()

@@ -10,7 +10,7 @@ from vasc.events import EventKind
 from vasc.models.perception import Cut, Perception
 from vasc.network import Origin
 from vasc.placement import Moment
-from vasc.states import CanalState, Kind, check_transition
+from vasc.states import CanalState, Kind, check_transitions
 from vasc.vasculature import Vasculature
 
 ROUNDING = 1e-6
@@ -55,7 +55,7 @@ class Canals:
 
     def change(self, veins: Vasculature, step: int, canal: Canal, state: CanalState) -> None:
         """Let a canal pass into another state."""
-        check_transition(Kind.CANAL, canal.state, state)
+        check_transitions(Kind.CANAL, canal.state, state)
         canal.state = state
         veins.log_states(step, np.array([canal.id], dtype=np.int32), state, Kind.CANAL)
         if state in (CanalState.VEIN, CanalState.ARRESTED):

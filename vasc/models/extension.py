@@ -93,9 +93,7 @@ class PulledExtension(Extension[Attraction]):
         branches = veins.has_child[parents]
         veins.has_child[parents] = True
         material, positions = moment.embed(places, veins.nodes.arrays["material"][parents])
-        rows = veins.add_nodes(
-            moment.step, material, positions, parents, causes, Origin.EXTENSION
-        )
+        rows = veins.add_nodes(moment.step, material, positions, parents, causes, Origin.EXTENSION)
         children = np.arange(rows.start, rows.stop, dtype=np.int32)
         veins.add_segments(
             moment.step, np.stack([parents, children], axis=1), SegmentKind.EXTENSION

@@ -60,9 +60,7 @@ class LargestBladePlacement(Placement):
         """Let the sources appear that the contour has reached."""
         if self.is_over(veins, moment.step - 1):
             return
-        is_inside = kernels.polygon.are_inside(
-            moment.outline, self._waiting, moment.outline_size
-        )
+        is_inside = kernels.polygon.are_inside(moment.outline, self._waiting, moment.outline_size)
         arriving = np.ascontiguousarray(self._waiting[is_inside])
         self._waiting = self._waiting[~is_inside]
         veins.reserve_sources(len(arriving))

@@ -10,6 +10,7 @@ import numpy as np
 from vasc.arrays import Column
 from vasc.domain import Blade
 from vasc.timeline import layout
+from vasc.timeline.layout import Motion
 from vasc.timeline.storage import Store, beside, check_output, publish
 
 RECORD_BYTES = 8192
@@ -22,6 +23,7 @@ def create_file(
     header: Mapping[str, Any],
     texts: Mapping[str, str],
     blade: Blade,
+    motion: Motion,
     stream_names: tuple[str, ...],
     units: Mapping[str, str | float],
     first_record: str,
@@ -39,6 +41,8 @@ def create_file(
         The config, by dataset name.
     blade : Blade
         The blade at step 0.
+    motion : Motion
+        How the file tells where everything is at a step.
     stream_names : tuple of str
         Names of the random streams.
     units : mapping of str to str or float
@@ -59,11 +63,11 @@ def create_file(
         store = Store.create(unready)
         try:
             with store.writing():
-                _describe(store, header, units)
+                _describe(store, header, motion, units)
                 for name, text in texts.items():
                     store.add_text(name, text, {"meaning": layout.TEXTS[name]})
                 _add_blade(store, blade)
-                _add_columns(store, stream_names)
+                _add_columns(store, stream_names, motion)
                 _add_provenance(store, first_record)
                 for name, column in layout.MARKS.items():
                     store.add_array(
@@ -77,11 +81,14 @@ def create_file(
             unready.unlink(missing_ok=True)
 
 
-def _describe(store: Store, header: Mapping[str, Any], units: Mapping[str, str | float]) -> None:
+def _describe(
+    store: Store, header: Mapping[str, Any], motion: Motion, units: Mapping[str, str | float]
+) -> None:
     """Set the attributes of the file and make the groups."""
     version = ".".join(str(number) for number in layout.VERSION)
-    store.describe({"format": layout.FORMAT, "version": version, **header})
-    for group, meaning in layout.MEANINGS.items():
+    fixed = {"format": layout.FORMAT, "version": version, layout.MOTION: str(motion)}
+    store.describe(fixed | dict(header))
+    for group, meaning in layout.groups(motion).items():
         known = {name: value for name, value in units.items() if value is not None}
         extra = known if group == layout.UNITS else {}
         store.add_group(group, {"meaning": meaning, **extra})
@@ -101,14 +108,20 @@ def _add_blade(store: Store, blade: Blade) -> None:
         store.add_array(name, rows, attributes)
 
 
-def _add_columns(store: Store, stream_names: tuple[str, ...]) -> None:
+def _add_columns(store: Store, stream_names: tuple[str, ...], motion: Motion) -> None:
     """Make the growing columns, empty."""
-    for path, column in layout.growing_columns(len(stream_names)).items():
+    for path, column in layout.growing_columns(len(stream_names), motion).items():
         group, _, name = path.partition("/")
         attributes = layout.column_attributes(group, name, column)
         if path == "frames/streams":
             attributes["names"] = np.array([name.encode() for name in stream_names])
-        store.add_column(path, column, layout.chunk_rows(path), attributes)
+        store.add_column(
+            path,
+            column,
+            layout.chunk_rows(path),
+            attributes,
+            is_compressed=group == layout.MOTION,
+        )
 
 
 def _add_provenance(store: Store, first_record: str) -> None:

@@ -7,6 +7,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from vasc.areoles import AREOLE_COLUMNS, BOUNDARY_COLUMNS, AreoleSet, areoles_from_columns
 from vasc.arrays import Points
 from vasc.domain import Blade
 from vasc.errors import VascError
@@ -25,6 +26,9 @@ class Recorded(Protocol):
 
     def table(self, name: str, column: str, start: int = 0, stop: int | None = None) -> NDArray:
         """Read rows of a column."""
+
+    def places(self, name: str, step: int) -> Points:
+        """Read explicit positions of a step."""
 
 
 class Frame:
@@ -50,14 +54,20 @@ class Frame:
         return f"Frame(step={self.step}, time={self.time:g}, nodes={self.n_rows('nodes')})"
 
     @property
-    def motion(self) -> NDArray[np.float64]:
-        """Affine map from material coordinates to positions, shape (2, 3)."""
-        return self._row["motion"]
+    def motion(self) -> NDArray[np.float64] | None:
+        """Affine map from material coordinates to positions, shape (2, 3).
+
+        None where there is none, and the positions are explicit.
+        """
+        return self._row.get("motion")
 
     @property
-    def outline_motion(self) -> NDArray[np.float64]:
-        """Affine map from the outline at step 0 to that of this step, shape (2, 3)."""
-        return self._row["outline_motion"]
+    def outline_motion(self) -> NDArray[np.float64] | None:
+        """Affine map from the outline at step 0 to that of this step, shape (2, 3).
+
+        None where there is none, and the outline is explicit.
+        """
+        return self._row.get("outline_motion")
 
     def n_rows(self, table: str) -> int:
         """Give the number of rows of a table that existed at this step."""
@@ -76,7 +86,11 @@ class Frame:
     @cached_property
     def blade(self) -> Blade:
         """The blade at this step, in real size."""
-        initial, motion = self._timeline.initial_blade, self.outline_motion
+        motion = self.outline_motion
+        if motion is None:
+            seeds = self.positions[self.rows("nodes", "origin") == Origin.SEED]
+            return Blade.sound([self._timeline.places("outline", self.step)], seeds)
+        initial = self._timeline.initial_blade
         scale = float(motion[0, 0])
         if np.array_equal(motion, [[scale, 0.0, 0.0], [0.0, scale, 0.0]]):
             return initial.scaled(scale)
@@ -86,7 +100,7 @@ class Frame:
     @cached_property
     def positions(self) -> Points:
         """Where the nodes are at this step, shape (n, 2)."""
-        return moved(self.rows("nodes", "material"), self.motion)
+        return self._positions("nodes")
 
     @cached_property
     def network(self) -> VeinNetwork:
@@ -109,9 +123,19 @@ class Frame:
         ids = np.flatnonzero(states != SourceState.DRAINED).astype(np.int32)
         return SourceSet(
             ids=ids,
-            positions=moved(self.rows("sources", "material")[ids], self.motion),
+            positions=self._positions("sources")[ids],
             births=self.rows("sources", "birth")[ids],
             states=states[ids],
+        )
+
+    @cached_property
+    def areoles(self) -> AreoleSet:
+        """The areoles at this step, in real size."""
+        return areoles_from_columns(
+            {name: self.rows("areoles", name) for name in AREOLE_COLUMNS},
+            {name: self.rows("boundaries", name) for name in BOUNDARY_COLUMNS},
+            {name: self.rows("events", name) for name in ("kind", "subject")},
+            self.positions,
         )
 
     def to_networkx(self) -> Any:
@@ -152,6 +176,12 @@ class Frame:
             kind = SegmentKind(code).name.lower()
             graph.add_edge(start, end, id=row, birth=birth, kind=kind, length=length)
         return graph
+
+    def _positions(self, table: str) -> Points:
+        """Give where all nodes or sources are at this step."""
+        if self.motion is None:
+            return self._timeline.places(table, self.step)
+        return moved(self.rows(table, "material"), self.motion)
 
 
 def require(package: str, extra: str) -> Any:

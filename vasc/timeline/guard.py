@@ -15,7 +15,7 @@ import numpy as np
 
 from vasc.arrays import Column
 from vasc.errors import TimelineError
-from vasc.timeline.layout import FORMAT, VERSION
+from vasc.timeline.layout import FORMAT, MOTION, VERSION
 from vasc.timeline.storage import reason
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
@@ -28,7 +28,7 @@ TRANSIENT = (OSError, RuntimeError, KeyError, ValueError)
 ALLOWED_FILTERS = frozenset({1, 2, 3})
 """deflate, shuffle, fletcher32: only a packed copy has any."""
 MAX_BYTES = 4 << 30
-"""The most that one dataset may declare."""
+"""The most that one dataset may declare, if it is one that is read whole."""
 MAX_RATIO = 1000
 """The most that filters may have saved."""
 SLACK = 1 << 20
@@ -200,7 +200,9 @@ def _check_plain(path: Path, name: str, dataset: h5py.Dataset) -> None:
         raise TimelineError(f"{path}: {name} uses the unknown filters {unknown}; refused")
     declared = int(dataset.size or 0) * dataset.dtype.itemsize
     limit = os.path.getsize(path) * (MAX_RATIO if filters else 1) + SLACK
-    if declared > min(limit, MAX_BYTES):
+    # explicit positions are read step by step
+    most = limit if name.startswith(f"{MOTION}/") else min(limit, MAX_BYTES)
+    if declared > most:
         raise TimelineError(f"{path}: {name} declares {declared} bytes, more than the file holds")
 
 

@@ -1,7 +1,7 @@
 """The layout of a timeline file, declared once: what writer, reader and validator agree on."""
 
 from dataclasses import dataclass
-from enum import IntEnum
+from enum import IntEnum, StrEnum
 from typing import Any
 
 import numpy as np
@@ -11,8 +11,8 @@ from vasc.arrays import Column, Columns
 from vasc.events import EventKind, StopReason
 from vasc.network import Origin, SegmentKind
 from vasc.sources import Cause
-from vasc.state import TABLE_COLUMNS
-from vasc.states import Kind, NodeState, SourceState
+from vasc.state import TABLE_COLUMNS, State
+from vasc.states import CanalState, Kind, NodeState, SourceState
 from vasc.streams import WORDS_PER_STREAM
 
 FORMAT = "vasc-timeline"
@@ -30,6 +30,22 @@ RING_XY = "blade/ring_xy"
 RING_STARTS = "blade/ring_starts"
 SEEDS = "blade/seeds"
 UNITS = "units"
+MOTION = "motion"
+
+
+class Motion(StrEnum):
+    """How a file tells where nodes, sources and the outline are at a step."""
+
+    AFFINE = "affine"
+    """By affine maps of what was there at the start."""
+    EXPLICIT = "explicit"
+    """By the positions of all of them, step by step."""
+
+
+def motion_of(state: State) -> Motion:
+    """Tell how a state says where everything is."""
+    return Motion.EXPLICIT if state.motion is None else Motion.AFFINE
+
 
 TABLES: dict[str, Columns] = dict(TABLE_COLUMNS)
 
@@ -41,12 +57,22 @@ MEANINGS = {
     "perceived": "the nodes each source attracts, written when the set changes",
     "states": "every change of a differentiation state",
     "events": "what happened: a kind, a subject and an object",
+    "areoles": "regions enclosed by veins; one that was split ends with an event",
+    "boundaries": "nodes around each areole when it was born, counterclockwise",
     "blade": "the outline at step 0: rings, closed implicitly, even-odd rule",
     "config": "the experiment as it was given, and with all defaults filled in",
     "provenance": "one session a run or resume: software, platform, times, as JSON",
     "units": "what a length and a time mean; segment lengths and steps if empty",
 }
-"""Meaning of every group."""
+"""Meaning of every group that every file has."""
+
+PLACES: Columns = {
+    "nodes": Column("f8", "positions of all nodes at step 0, at step 1, ...", "length", (2,)),
+    "sources": Column("f8", "positions of all sources at step 0, at step 1, ...", "length", (2,)),
+    "outline": Column("f8", "the outline at step 0, at step 1, ...", "length", (2,)),
+}
+"""Columns of ``motion`` where it is explicit; a step is a slice, row number = id within it."""
+PLACES_MEANING = "where nodes, sources and the outline are, one step after the other"
 
 MARKS = {
     COMMITTED: Column("i8", "number of committed frames"),
@@ -72,7 +98,11 @@ NAMES: dict[tuple[str, str], dict[str, type[IntEnum]]] = {
     ("segments", "kind"): {"": SegmentKind},
     ("sources", "cause"): {"": Cause},
     ("states", "what"): {"": Kind},
-    ("states", "state"): {"source_": SourceState, "node_": NodeState},
+    ("states", "state"): {
+        "source_": SourceState,
+        "node_": NodeState,
+        "canal_": CanalState,
+    },
     ("events", "kind"): {"": EventKind},
     ("events", "subject"): {"stop_reason_": StopReason},
 }
@@ -99,6 +129,13 @@ ROLES: dict[EventKind, EventRoles] = {
     EventKind.SEGMENT_REFINED: EventRoles("segments", "nodes"),
     EventKind.GROWTH_ENDED: EventRoles(None, None),
     EventKind.RUN_FINISHED: EventRoles(None, None),
+    EventKind.NODE_RETIRED: EventRoles("nodes", None),
+    EventKind.STRAND_EXTENDED: EventRoles("perceived", "nodes"),
+    EventKind.CANAL_RETARGETED: EventRoles("perceived", "nodes"),
+    EventKind.AREOLE_BORN: EventRoles("areoles", "segments"),
+    EventKind.AREOLE_SPLIT: EventRoles("areoles", "segments"),
+    EventKind.SOURCE_ENCLOSED: EventRoles("sources", "areoles"),
+    EventKind.MESOPHYLL_EVENT: EventRoles(None, None),
 }
 
 
@@ -107,8 +144,17 @@ def count_column(table: str) -> str:
     return f"n_{table}"
 
 
-def frame_columns(n_streams: int) -> Columns:
+def groups(motion: Motion) -> dict[str, str]:
+    """Give the meaning of every group in a file with such a motion."""
+    return MEANINGS | ({MOTION: PLACES_MEANING} if motion == Motion.EXPLICIT else {})
+
+
+def frame_columns(n_streams: int, motion: Motion = Motion.AFFINE) -> Columns:
     """Give the columns of ``frames`` in a file that records ``n_streams`` random streams."""
+    maps = {
+        "motion": Column("f8", "affine map from material coordinates to positions", "", (2, 3)),
+        "outline_motion": Column("f8", "affine map from the outline at step 0", "", (2, 3)),
+    }
     counts = {
         count_column(table): Column("i8", f"rows of {table} that exist at this step")
         for table in TABLES
@@ -117,20 +163,21 @@ def frame_columns(n_streams: int) -> Columns:
         "step": Column("i4", "loop count, equal to the row number"),
         "time": Column("f8", "model time", unit="time"),
         **counts,
-        "motion": Column("f8", "affine map from material coordinates to positions", "", (2, 3)),
-        "outline_motion": Column("f8", "affine map from the outline at step 0", "", (2, 3)),
+        **(maps if motion == Motion.AFFINE else {}),
         "streams": Column(
             "u8", "states of the random streams, a row a stream", "", (n_streams, WORDS_PER_STREAM)
         ),
     }
 
 
-def growing_columns(n_streams: int) -> dict[str, Column]:
+def growing_columns(n_streams: int, motion: Motion = Motion.AFFINE) -> dict[str, Column]:
     """Give all columns that grow with the frames, by their path in the file."""
-    groups: dict[str, Columns] = {"frames": frame_columns(n_streams), **TABLES}
+    grouped: dict[str, Columns] = {"frames": frame_columns(n_streams, motion), **TABLES}
+    if motion == Motion.EXPLICIT:
+        grouped[MOTION] = PLACES
     return {
         f"{group}/{name}": column
-        for group, columns in groups.items()
+        for group, columns in grouped.items()
         for name, column in columns.items()
     }
 

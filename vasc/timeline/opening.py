@@ -8,11 +8,23 @@ from typing import Any
 
 import h5py
 import numpy as np
+from numpy.typing import NDArray
 
+from vasc.arrays import Column, Columns
 from vasc.errors import TimelineError
 from vasc.streams import WORDS_PER_STREAM
 from vasc.timeline import guard, layout
-from vasc.timeline.layout import COMMITTED, COMPLETE, PROVENANCE, TABLES, VERSION, count_column
+from vasc.timeline.layout import (
+    COMMITTED,
+    COMPLETE,
+    MOTION,
+    PLACES,
+    PROVENANCE,
+    TABLES,
+    VERSION,
+    Motion,
+    count_column,
+)
 from vasc.timeline.provenance import sessions
 from vasc.timeline.storage import Store, reason
 
@@ -37,6 +49,8 @@ class Found:
         Seed of the run.
     records_perceived : bool
         Whether the file holds what sources perceived.
+    motion : Motion
+        How the file tells where everything is at a step.
     """
 
     version: tuple[int, int]
@@ -46,6 +60,17 @@ class Found:
     n_streams: int
     seed: int
     records_perceived: bool
+    motion: Motion
+
+    @property
+    def frame_columns(self) -> Columns:
+        """The columns of ``frames`` in this file."""
+        return layout.frame_columns(self.n_streams, self.motion)
+
+    @property
+    def growing_columns(self) -> dict[str, Column]:
+        """All columns of this file that grow with the frames, by path."""
+        return layout.growing_columns(self.n_streams, self.motion)
 
 
 def find(path: Path, file: h5py.File) -> Found:
@@ -61,7 +86,8 @@ def find(path: Path, file: h5py.File) -> Found:
     n_frames = _mark(path, file, COMMITTED)
     is_complete = _mark(path, file, COMPLETE) == 1
     n_streams = _n_streams(path, file)
-    columns = layout.growing_columns(n_streams)
+    motion = _header(path, file, MOTION, Motion)
+    columns = layout.growing_columns(n_streams, motion)
     datasets = {}
     for name, column in columns.items():
         datasets[name] = guard.open_dataset(path, file, name)
@@ -77,8 +103,9 @@ def find(path: Path, file: h5py.File) -> Found:
                 raise TimelineError(f"{path}: {name} is {counts[k]} in its last row")
     for name in columns:
         group = name.partition("/")[0]
-        n_rows = n_frames if group == "frames" else counts[list(TABLES).index(group)]
-        check_length(path, datasets, name, n_rows)
+        if group != MOTION:
+            n_rows = n_frames if group == "frames" else counts[list(TABLES).index(group)]
+            check_length(path, datasets, name, n_rows)
     return Found(
         version=version,
         n_frames=n_frames,
@@ -87,16 +114,63 @@ def find(path: Path, file: h5py.File) -> Found:
         n_streams=n_streams,
         seed=_header(path, file, "seed", int),
         records_perceived=bool(_header(path, file, "records_perceived", int)),
+        motion=motion,
     )
 
 
-def open_to_continue(path: Path) -> tuple[Store, Found, int]:
+def find_places(
+    path: Path, file: h5py.File, found: Found, read: Callable[[str, int, int], NDArray]
+) -> dict[str, NDArray[np.int64]]:
+    """Give where the rows of each step begin in the columns of an explicit motion.
+
+    Parameters
+    ----------
+    path, file : Path, h5py.File
+        The open file.
+    found : Found
+        What is committed in it.
+    read : callable
+        Reads rows of a growing column, from one row to another.
+
+    Returns
+    -------
+    dict of str to ndarray of shape (n_frames + 1,), int64
+        By column of ``motion``: the first row of every step, and the committed rows.
+        Empty where the motion is affine.
+
+    Raises
+    ------
+    TimelineError
+        If a column lacks rows that are committed, or cannot be read.
+    """
+    starts: dict[str, NDArray[np.int64]] = {}
+    if found.motion != Motion.EXPLICIT:
+        return starts
+    n_outline = guard.open_dataset(path, file, layout.RING_XY).shape[0]
+    for name in PLACES:
+        counted = f"frames/{count_column(name)}"
+        if name == "outline":
+            n_rows = np.full(found.n_frames, n_outline, dtype=np.int64)
+        else:
+            n_rows = read(counted, 0, found.n_frames)
+        starts[name] = np.concatenate([[0], np.cumsum(n_rows, dtype=np.int64)])
+        # a sum beyond the range of the type is below 0
+        if (n_rows < 0).any() or (starts[name] < 0).any():
+            raise TimelineError(f"{path}: {counted} does not count rows")
+        column = f"{MOTION}/{name}"
+        datasets = {column: guard.open_dataset(path, file, column)}
+        check_length(path, datasets, column, int(starts[name][-1]))
+    return starts
+
+
+def open_to_continue(path: Path) -> tuple[Store, Found, dict[str, NDArray[np.int64]], int]:
     """Open a timeline for writing, locked against other writers.
 
     Returns
     -------
-    tuple of Store, Found, int
-        The open file, what is committed in it, and the number of its next session.
+    tuple of Store, Found, dict, int
+        The open file, what is committed in it, where the rows of each step begin in the
+        columns of an explicit motion, and the number of its next session.
 
     Raises
     ------
@@ -107,6 +181,7 @@ def open_to_continue(path: Path) -> tuple[Store, Found, int]:
     file = guard.open_for_writing(path)
     try:
         found = find(path, file)
+        starts = find_places(path, file, found, lambda name, *rows: file[name][slice(*rows)])
         known = sessions(read_records(path, file))
         if found.version > VERSION:
             text, mine = (".".join(map(str, v)) for v in (found.version, VERSION))
@@ -120,7 +195,8 @@ def open_to_continue(path: Path) -> tuple[Store, Found, int]:
     except BaseException:
         file.close()
         raise
-    return Store(path, file), found, 1 + max((s["session"] for s in known), default=-1)
+    session = 1 + max((s["session"] for s in known), default=-1)
+    return Store(path, file), found, starts, session
 
 
 def read_records(path: Path, file: h5py.File) -> list[str]:

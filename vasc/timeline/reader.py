@@ -1,7 +1,6 @@
 """The reader: a recorded run, opened at once and read piece by piece."""
 
 import json
-from collections.abc import Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from types import TracebackType
@@ -16,46 +15,15 @@ from vasc.errors import OutlineError, TimelineError
 from vasc.state import Tables
 from vasc.timeline import guard, layout, opening
 from vasc.timeline.access import OpenFile
+from vasc.timeline.areas import areole_areas
 from vasc.timeline.frame import Frame, require
-from vasc.timeline.layout import TABLES, count_column
+from vasc.timeline.layout import MOTION, TABLES, Motion, count_column
 from vasc.timeline.lineage import Lineage
+from vasc.timeline.occurrences import Events
 from vasc.timeline.provenance import sessions
 
 AXES = {"position": ("x", "y"), "material": ("x", "y"), "nodes": ("proximal", "distal")}
 """Suffixes of the data frame columns that one pair column becomes."""
-
-
-class Events(Mapping[str, NDArray]):
-    """The events of a run: a mapping of columns, with counts by kind.
-
-    Parameters
-    ----------
-    columns : dict of str to ndarray
-        ``step``, ``kind``, ``subject`` and ``object``, each of shape (n,).
-    names : dict of int to str
-        Names of the kinds, as the file gives them.
-    """
-
-    def __init__(self, columns: dict[str, NDArray], names: dict[int, str]) -> None:
-        self._columns = columns
-        self.names = names
-
-    def __getitem__(self, name: str) -> NDArray:
-        return self._columns[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._columns)
-
-    def __len__(self) -> int:
-        return len(self._columns)
-
-    def counts(self) -> dict[str, int]:
-        """Give the number of events of each kind that occurred, by its name."""
-        codes, numbers = np.unique(self["kind"], return_counts=True)
-        return {
-            self.names.get(code, f"kind {code}"): number
-            for code, number in zip(codes.tolist(), numbers.tolist(), strict=True)
-        }
 
 
 class Timeline:
@@ -133,6 +101,11 @@ class Timeline:
         """True when the file holds which nodes each source attracts."""
         return self.opened.found.records_perceived
 
+    @property
+    def motion(self) -> Motion:
+        """How the file tells where everything is at a step."""
+        return self.opened.found.motion
+
     @cached_property
     def model(self) -> str:
         """Name of the model."""
@@ -208,7 +181,7 @@ class Timeline:
     @cached_property
     def frames(self) -> dict[str, NDArray]:
         """All columns of ``frames``, row number = step."""
-        columns = layout.frame_columns(self.opened.found.n_streams)
+        columns = self.opened.found.frame_columns
         return {name: self.opened.read(f"frames/{name}", 0, self.n_frames) for name in columns}
 
     @cached_property
@@ -260,10 +233,9 @@ class Timeline:
             If the step is not recorded.
         """
         step = self._step(step)
-        columns = layout.frame_columns(self.opened.found.n_streams)
         row = {
             name: self.opened.read(f"frames/{name}", step, step + 1)[0]
-            for name in columns
+            for name in self.opened.found.frame_columns
             if name != "streams"
         }
         return Frame(self, step, row)
@@ -277,6 +249,50 @@ class Timeline:
             If the step is not recorded.
         """
         return self.frame(step).positions
+
+    def places(self, name: str, step: int = -1) -> Points:
+        """Give explicit positions of a step: of all its nodes or sources, or its outline.
+
+        Parameters
+        ----------
+        name : str
+            ``nodes``, ``sources`` or ``outline``.
+        step : int
+            The step, the last one when not given.
+
+        Returns
+        -------
+        ndarray of shape (n, 2), float64
+            Positions; row = id, or the place in the ring of the outline.
+
+        Raises
+        ------
+        TimelineError
+            If the step is not recorded, or the motion is affine.
+        """
+        step = self._step(step)
+        if name not in self._starts:
+            known = ", ".join(self._starts) or f"none: its motion is {self.motion}"
+            raise TimelineError(
+                f"{self.path}: no explicit positions of {name!r}; there are {known}"
+            )
+        start, stop = self._starts[name][step : step + 2].tolist()
+        return self.opened.read(f"{MOTION}/{name}", start, stop)
+
+    def areole_areas(self) -> dict[str, NDArray]:
+        """Give the area of every areole at every step of its life.
+
+        Returns
+        -------
+        dict of str to ndarray
+            ``step``, ``areole`` and ``area``, one row an areole a step.
+
+        Raises
+        ------
+        TimelineError
+            If the rows cannot be read.
+        """
+        return areole_areas(self)
 
     def stream_words(self, step: int = -1) -> NDArray[np.uint64]:
         """Give the states of the random streams after a step, shape (n_streams, 6).
@@ -337,6 +353,17 @@ class Timeline:
             else:
                 flat.update(_flat(key, rows))
         return pandas.DataFrame(flat).rename_axis("step" if name == "frames" else "id")
+
+    @property
+    def n_places(self) -> dict[str, int]:
+        """Number of rows of each column of an explicit motion, over all steps."""
+        return {name: int(rows[-1]) for name, rows in self._starts.items()}
+
+    @cached_property
+    def _starts(self) -> dict[str, NDArray[np.int64]]:
+        """Where the rows of each step begin, by column of an explicit motion."""
+        opened = self.opened
+        return opening.find_places(self.path, opened.file, opened.found, opened.read)
 
     def _step(self, step: int) -> int:
         """Give the row of a step; -1 is the last."""

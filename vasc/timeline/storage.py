@@ -2,7 +2,8 @@
 
 Nothing that exists is rewritten, except two marks of one number each. Columns
 carry no filters: a compressed chunk is moved when it grows, and a process that
-is killed then loses the file.
+is killed then loses the file. Those that do, for being large, are written by
+:mod:`vasc.timeline.compressed`, which moves none.
 """
 
 import contextlib
@@ -19,7 +20,11 @@ from numpy.typing import NDArray
 
 from vasc.arrays import Column
 from vasc.errors import OutputError
+from vasc.timeline.compressed import CompressedColumn
 from vasc.timeline.layout import fill_value
+
+COMPRESSION = 4
+"""Level of deflate, from 0 to 9."""
 
 
 class GrowingColumn:
@@ -74,7 +79,7 @@ class Store:
     def __init__(self, path: Path, file: h5py.File) -> None:
         self.path = path
         self._file = file
-        self._marks: dict[str, GrowingColumn] = {}
+        self._marks: dict[str, GrowingColumn | CompressedColumn] = {}
 
     @classmethod
     def create(cls, path: Path) -> "Store":
@@ -119,7 +124,13 @@ class Store:
         self._describe(h5py.Dataset(dataset), attributes)
 
     def add_column(
-        self, name: str, column: Column, chunk_rows: int, attributes: Mapping[str, Any]
+        self,
+        name: str,
+        column: Column,
+        chunk_rows: int,
+        attributes: Mapping[str, Any],
+        *,
+        is_compressed: bool = False,
     ) -> None:
         """Make an empty column that can grow."""
         dtype = np.dtype(column.dtype)
@@ -127,17 +138,25 @@ class Store:
         creation.set_chunk((chunk_rows, *(max(1, n) for n in column.shape)))
         if dtype.kind != "S":
             creation.set_fill_value(np.array(fill_value(dtype)))
+        if is_compressed:
+            creation.set_shuffle()
+            creation.set_deflate(COMPRESSION)
+            creation.set_fletcher32()
         space = h5s.create_simple((0, *column.shape), (h5s.UNLIMITED, *column.shape))
         dataset = h5d.create(
             self._file.id, name.encode(), h5t.py_create(dtype), space, dcpl=creation
         )
+        if is_compressed:
+            CompressedColumn.begin(dataset)
         self._describe(h5py.Dataset(dataset), attributes)
 
-    def column(self, name: str) -> GrowingColumn:
+    def column(self, name: str) -> GrowingColumn | CompressedColumn:
         """Open a column for appending, without a cache: rows go straight to the file."""
         access = h5p.create(h5p.DATASET_ACCESS)
         access.set_chunk_cache(0, 0, 0.0)
-        return GrowingColumn(h5d.open(self._file.id, name.encode(), access))
+        dataset = h5d.open(self._file.id, name.encode(), access)
+        has_filters = dataset.get_create_plist().get_nfilters() > 0
+        return CompressedColumn(dataset) if has_filters else GrowingColumn(dataset)
 
     def mark(self, name: str, value: int) -> None:
         """Set a mark, the only kind of value that is rewritten, and bring it to the file."""

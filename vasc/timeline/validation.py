@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 
 from vasc.errors import OutlineError, TimelineError
-from vasc.timeline import guard, layout, rules
+from vasc.timeline import areole_rules, guard, layout, motion_rules, rules
 from vasc.timeline.provenance import schema
 from vasc.timeline.reader import Timeline
 from vasc.timeline.rules import Findings, Record, bad_rows
@@ -65,7 +65,7 @@ def _header(record: Record) -> Findings:
     for name in ("model", "growth"):
         if not guard.attribute(record.file, name):
             yield f"[header] the attribute {name!r} is missing or empty"
-    for group in layout.MEANINGS:
+    for group in layout.groups(record.timeline.motion):
         record.timeline.opened.item(group)
     for table, column in layout.NAMES:
         item = record.timeline.opened.item(f"{table}/{column}")
@@ -77,7 +77,7 @@ def _header(record: Record) -> Findings:
         yield f"[header] {layout.COMPLETE} is {complete}, must be 0 or 1"
     if len(record.timeline.stream_names) != record.timeline.opened.found.n_streams:
         yield "[header] frames/streams: as many names as streams are needed"
-    for path in layout.growing_columns(record.timeline.opened.found.n_streams):
+    for path in record.timeline.opened.found.growing_columns:
         dataset = record.file[path]
         if dataset.maxshape[0] is not None:
             yield f"[header] {path} cannot grow"
@@ -120,7 +120,8 @@ def _blade(record: Record) -> Findings:
 STAGES = (
     (_links, _header, _texts, _blade),
     (rules.frames,),
-    (rules.filled, rules.codes, rules.steps, rules.ids),
-    (rules.descent, rules.segments, rules.positions, rules.states, rules.ends),
+    (rules.filled, rules.codes, rules.steps, rules.ids, motion_rules.explicit),
+    (rules.descent, rules.segments, motion_rules.positions, rules.states, rules.ends),
+    (areole_rules.areoles, areole_rules.boundaries, areole_rules.retired),
 )
 """All rules; those of a stage index with what the stages before have checked."""

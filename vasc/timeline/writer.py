@@ -12,11 +12,21 @@ from numpy.typing import NDArray
 
 from vasc.domain import Blade
 from vasc.errors import TimelineError
-from vasc.state import State, Tables
+from vasc.state import Places, State, Tables
 from vasc.streams import Streams
 from vasc.timeline import layout, opening
+from vasc.timeline.compressed import CompressedColumn
 from vasc.timeline.creation import create_file
-from vasc.timeline.layout import COMMITTED, COMPLETE, PROVENANCE, TABLES, count_column
+from vasc.timeline.layout import (
+    COMMITTED,
+    COMPLETE,
+    MOTION,
+    PROVENANCE,
+    TABLES,
+    Motion,
+    count_column,
+    motion_of,
+)
 from vasc.timeline.provenance import begin_session, end_session
 from vasc.timeline.storage import GrowingColumn, Store
 
@@ -32,8 +42,9 @@ class _Pending(NamedTuple):
     step: int
     time: float
     counts: tuple[int, ...]
-    motion: NDArray[np.float64]
-    outline_motion: NDArray[np.float64]
+    motion: NDArray[np.float64] | None
+    outline_motion: NDArray[np.float64] | None
+    places: Places | None
     streams: NDArray[np.uint64]
 
 
@@ -56,7 +67,13 @@ class Recorder:
         ``total`` are filled in here.
     """
 
-    def __init__(self, store: Store, found: opening.Found, session: int) -> None:
+    def __init__(
+        self,
+        store: Store,
+        found: opening.Found,
+        starts: Mapping[str, NDArray[np.int64]],
+        session: int,
+    ) -> None:
         self.path = store.path
         self.n_frames = found.n_frames
         self.phases: dict[str, float] = {}
@@ -65,9 +82,11 @@ class Recorder:
         self._was_complete = found.is_complete
         self._is_finished = found.is_complete
         self._records_perceived = found.records_perceived
+        self._motion = found.motion
         self._written = list(found.counts)
-        self._columns: dict[str, GrowingColumn] = {
-            name: store.column(name) for name in layout.growing_columns(found.n_streams)
+        self._placed = {name: int(rows[-1]) for name, rows in starts.items()}
+        self._columns: dict[str, GrowingColumn | CompressedColumn] = {
+            name: store.column(name) for name in found.growing_columns
         }
         self._pending: list[_Pending] = []
         self._tables: Tables | None = None
@@ -87,6 +106,7 @@ class Recorder:
         seed: int,
         blade: Blade,
         stream_names: Iterable[str],
+        motion: Motion = Motion.AFFINE,
         units: Mapping[str, str | float] | None = None,
         force: bool = False,
         record_perceived: bool = True,
@@ -109,6 +129,8 @@ class Recorder:
             The blade at step 0.
         stream_names : iterable of str
             Names of the random streams, in the order of their recorded words.
+        motion : Motion
+            How the states tell where everything is: see ``layout.motion_of``.
         units : mapping of str to str or float, optional
             What a length and a time mean.
         force : bool
@@ -134,13 +156,14 @@ class Recorder:
             header=header,
             texts={layout.CONFIG_TOML: config_toml, layout.CONFIG_JSON: json.dumps(config)},
             blade=blade,
+            motion=motion,
             stream_names=names,
             units={} if units is None else units,
             first_record=json.dumps(first),
             force=force,
         )
-        store, found, _ = opening.open_to_continue(Path(path))
-        return cls(store, found, session=0)
+        store, found, starts, _ = opening.open_to_continue(Path(path))
+        return cls(store, found, starts, session=0)
 
     @classmethod
     def resume(cls, path: str | Path) -> Self:
@@ -156,9 +179,9 @@ class Recorder:
             If the file is no sound timeline, is newer than this version, or is
             being written by another run.
         """
-        store, found, session = opening.open_to_continue(Path(path))
+        store, found, starts, session = opening.open_to_continue(Path(path))
         try:
-            recorder = cls(store, found, session=session)
+            recorder = cls(store, found, starts, session=session)
             with store.writing():
                 recorder._cut()
                 begin = begin_session(session, kind="resume", seed=found.seed)
@@ -174,14 +197,16 @@ class Recorder:
         Raises
         ------
         TimelineError
-            If the state is not the next step, or the recorder is closed.
+            If the state is not the next step, tells its motion in another way than the
+            file, or the recorder is closed.
         OutputError
             If the file cannot be written.
         """
         started = time.perf_counter()
         pending = self._pending
-        if state.step != self.n_frames + len(pending) or self._is_closed:
-            self._refuse(state.step)
+        is_next = state.step == self.n_frames + len(pending)
+        if not is_next or motion_of(state) != self._motion or self._is_closed:
+            self._refuse(state)
         if not pending:
             self._oldest = started
         pending.append(
@@ -191,6 +216,7 @@ class Recorder:
                 state.counts,
                 state.motion,
                 state.outline_motion,
+                state.places,
                 streams.state(),
             )
         )
@@ -245,12 +271,15 @@ class Recorder:
         else:
             self.close(complete=False, outcome=f"failed: {type(error).__name__}: {error}"[:400])
 
-    def _refuse(self, step: int) -> None:
+    def _refuse(self, state: State) -> None:
         """Say why a state cannot be recorded."""
         if self._is_closed:
             raise TimelineError(f"{self.path}: the recorder is closed")
         expected = self.n_frames + len(self._pending)
-        raise TimelineError(f"{self.path}: step {step} came, step {expected} was expected")
+        step, its = state.step, motion_of(state)
+        if step != expected:
+            raise TimelineError(f"{self.path}: step {step} came, step {expected} was expected")
+        raise TimelineError(f"{self.path}: step {step} is {its}, the file is {self._motion}")
 
     def _commit(self) -> None:
         """Write the pending frames and their rows; only then the frame counter."""
@@ -265,6 +294,7 @@ class Recorder:
         try:
             with self._store.writing():
                 self._write_rows(self._tables, counts[-1].tolist())
+                placed = self._write_places()
                 self._write_frames(counts)
                 if self._was_complete:
                     self._store.mark(COMPLETE, 0)
@@ -276,7 +306,8 @@ class Recorder:
             raise
         n_frames, written = self.n_frames + len(self._pending), counts[-1].tolist()
         # no call in between, so that no interrupt leaves half of this done
-        self._is_broken, self.n_frames, self._written, self._pending = False, n_frames, written, []
+        self._is_broken, self.n_frames, self._written = False, n_frames, written
+        self._placed, self._pending = placed, []
 
     def _write_rows(self, tables: Tables, counts: list[int]) -> None:
         """Write the rows of every table that are new since the last commit."""
@@ -289,7 +320,11 @@ class Recorder:
 
     def _write_frames(self, counts: NDArray[np.int64]) -> None:
         """Write the pending rows of ``frames``."""
-        fields = {name: [getattr(f, name) for f in self._pending] for name in _FRAME_FIELDS}
+        fields = {
+            name: [getattr(frame, name) for frame in self._pending]
+            for name in _FRAME_FIELDS
+            if f"frames/{name}" in self._columns
+        }
         values: dict[str, Any] = {
             **fields,
             **{count_column(table): counts[:, k] for k, table in enumerate(TABLES)},
@@ -298,11 +333,23 @@ class Recorder:
             column = self._columns[f"frames/{name}"]
             column.write(self.n_frames, np.ascontiguousarray(rows, dtype=column.dtype))
 
+    def _write_places(self) -> dict[str, int]:
+        """Write the explicit positions of the pending frames; the rows there are then."""
+        placed = dict(self._placed)
+        for name, start in self._placed.items():
+            column = self._columns[f"{MOTION}/{name}"]
+            rows = np.concatenate([getattr(frame.places, name) for frame in self._pending])
+            column.write(start, np.ascontiguousarray(rows, dtype=column.dtype))
+            placed[name] = start + len(rows)
+        return placed
+
     def _cut(self) -> None:
         """Drop rows that were written and not committed."""
         for table, n_rows in zip(TABLES, self._written, strict=True):
             for name in TABLES[table]:
                 self._columns[f"{table}/{name}"].cut(n_rows)
+        for name, n_rows in self._placed.items():
+            self._columns[f"{MOTION}/{name}"].cut(n_rows)
         for name, column in self._columns.items():
             if name.startswith("frames/"):
                 column.cut(self.n_frames)
