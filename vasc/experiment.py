@@ -23,6 +23,9 @@ from vasc.timeline import Motion, Recorder, Timeline, motion_of
 FRAME_COLUMNS = ("time", "motion", "outline_motion")
 """Columns of ``frames`` that a state gives under the same name, if at all."""
 
+OUTLINE_ERROR = 0.1
+"""A node at most that far beyond a deformed outline, in D, may be on the margin."""
+
 
 def never() -> bool:
     """Tell a run to go on."""
@@ -296,17 +299,24 @@ def _summary(
     network = state.network
     # a seed lies on the margin, where the petiole is attached
     is_outside = ~state.blade.contains(network.positions)
+    is_outside &= network.origins != Origin.SEED
+    is_outside[network.retired] = False
+    outside = np.flatnonzero(is_outside)
+    if state.places is not None:
+        # the recorded outline is a polygon, nodes on the margin are between its corners
+        gaps = state.blade.margin_distance(network.positions[outside])
+        outside = outside[gaps > OUTLINE_ERROR]
     return Summary(
         output=path,
         steps=state.step,
-        nodes=network.n_nodes,
+        nodes=network.n_vein_nodes,
         segments=network.n_segments,
         sources_placed=kinds[EventKind.SOURCE_PLACED],
         sources_left=len(state.live),
         joins=kinds[EventKind.VEIN_JOINED],
         loops=kinds[EventKind.LOOP_CLOSED],
         stalls_resolved=kinds[EventKind.STALL_RESOLVED],
-        nodes_outside=int((is_outside & (network.origins != Origin.SEED)).sum()),
+        nodes_outside=len(outside),
         wall_seconds=time.perf_counter() - started,
         stop_reason=reason,
         is_interrupted=is_interrupted,

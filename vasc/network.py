@@ -1,6 +1,6 @@
 """Vein networks: nodes and the segments between them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
 from functools import cached_property
 
@@ -65,6 +65,8 @@ class VeinNetwork:
         Their ids (rows of the segments table) and steps of birth.
     segment_kinds : ndarray of shape (m,), int8
         Values of :class:`SegmentKind`.
+    retired : ndarray of shape (r,), int32
+        Ids of nodes that refinement has replaced: they are in no segment any more.
     """
 
     positions: Points
@@ -76,11 +78,17 @@ class VeinNetwork:
     segment_ids: Ids
     segment_births: Steps
     segment_kinds: Codes
+    retired: Ids = field(default_factory=lambda: np.empty(0, dtype=np.int32))
 
     @property
     def n_nodes(self) -> int:
-        """Number of nodes."""
+        """Number of nodes, retired ones as well: ids are less than that."""
         return len(self.positions)
+
+    @property
+    def n_vein_nodes(self) -> int:
+        """Number of nodes that are part of a vein, or a seed."""
+        return len(self.positions) - len(self.retired)
 
     @property
     def n_segments(self) -> int:

@@ -202,6 +202,7 @@ def network_from_columns(
         segment_ids=ids,
         segment_births=segments["birth"][ids],
         segment_kinds=segments["kind"][ids],
+        retired=events["subject"][events["kind"] == EventKind.NODE_RETIRED],
     )
 
 

@@ -43,7 +43,7 @@ def statistics(moment: Moment, units: Mapping[str, Any] | None = None) -> dict[s
         "length_unit": unit.name,
         "blade_length": float(blade.length) * scale,
         "blade_area": float(blade.area) * scale**2,
-        "nodes": network.n_nodes,
+        "nodes": network.n_vein_nodes,
         "segments": network.n_segments,
         "components": components,
         "cycles": count_cycles(network, components=components),

@@ -36,7 +36,8 @@ def component_labels(network: VeinNetwork) -> Ids:
 
 def count_components(network: VeinNetwork) -> int:
     """Count the connected components; 0 for an empty network."""
-    return int(component_labels(network).max(initial=-1)) + 1
+    # a retired node is labelled as a component of its own
+    return int(component_labels(network).max(initial=-1)) + 1 - len(network.retired)
 
 
 def count_cycles(network: VeinNetwork, *, components: int | None = None) -> int:
@@ -50,7 +51,7 @@ def count_cycles(network: VeinNetwork, *, components: int | None = None) -> int:
         Its number of components, if known already.
     """
     components = count_components(network) if components is None else components
-    return network.n_segments - network.n_nodes + components
+    return network.n_segments - network.n_vein_nodes + components
 
 
 def free_ends(network: VeinNetwork) -> Ids:

@@ -204,8 +204,8 @@ def descent(record: Record) -> Findings:
     has_parent = parents != NULL
     is_bad = has_parent & (parents >= np.arange(len(parents)))
     yield from bad_rows("descent", "nodes/parent", is_bad, parents, "must be an earlier row")
-    # a refinement may halve a segment in the step that made it
-    margin = np.where(origins == Origin.REFINEMENT, 0, 1)
+    # a refinement may halve a segment in the step that made it, a source be reached in that step
+    margin = np.where(np.isin(origins, [Origin.REFINEMENT, Origin.SOURCE]), 0, 1)
     is_bad = has_parent & (births[np.maximum(parents, 0)] + margin > births)
     yield from bad_rows("descent", "nodes/parent", is_bad, parents, "must be born earlier")
 
