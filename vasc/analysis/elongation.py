@@ -5,6 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from vasc.analysis.moment import Moment
+from vasc.analysis.widths import Pipes
 from vasc.arrays import Floats
 from vasc.network import Origin, VeinNetwork
 
@@ -67,6 +68,25 @@ class Elongation:
         for node in np.flatnonzero(is_refined).tolist():
             widths[node] = widths[network.parents[node]]
         self.widths = widths
+
+
+def stretched_pipes(network: VeinNetwork, widths: Floats, exponent: float) -> Pipes:
+    """Give the pipes that veins of given widths stand for, so that they are drawn as wide.
+
+    A segment is as wide as the thinner of its nodes: a junction is as wide as its
+    widest vein, and the thinner ones do not swell toward it.
+
+    Parameters
+    ----------
+    network : VeinNetwork
+        The veins.
+    widths : ndarray of shape (n,), float64
+        Width of every node.
+    exponent : float
+        That of :func:`vasc.analysis.widths.radii`.
+    """
+    amounts = widths**exponent
+    return Pipes(amounts, amounts[network.segments].min(axis=1, initial=np.inf))
 
 
 def elongation_widths(moments: Iterable[Moment], kappa: float = 1.0) -> Floats:

@@ -1,6 +1,7 @@
 """Vein widths by Murray's law, on trees and on networks with loops."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from pydantic import model_validator
@@ -16,8 +17,16 @@ TIP_RADIUS = 0.25
 
 
 class WidthParameters(Parameters):
-    """How wide the veins are (thesis equation 3.5 and section 4.2.5)."""
+    """How wide the veins are (thesis equation 3.5, sections 4.2.5 and 5.2)."""
 
+    rule: Literal["murray", "elongation"] = quantity(
+        "'murray': as wide as the veinlets it serves ask for; 'elongation': the wider the more"
+        " growth has stretched its segments",
+        default="murray",
+    )
+    kappa: float = quantity(
+        "increase of the width relative to that of the length, by elongation", default=1.0, ge=0.0
+    )
     exponent: float = quantity(
         "n in r^n = r1^n + r2^n; 2 adds up cross-sections, 3 is Murray's optimum",
         default=2.0,

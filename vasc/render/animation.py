@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vasc.analysis.widths import WidthParameters
 from vasc.errors import OutputError, VascError
-from vasc.render.files import checked_output, open_run, widths_of
+from vasc.render.files import checked_output, open_run, node_widths, widths_of
 from vasc.render.leaf import draw_leaf, fitted_widths, view_of
 from vasc.render.styles import DPI, LeafStyle
 
@@ -105,8 +105,10 @@ def animate(
     with open_run(run) as timeline:
         last = timeline.frame(-1)
         view = view_of(last.blade, style, side=film.pixels / DPI)
-        settled = fitted_widths(last, widths or widths_of(timeline), style, view)
         steps = chosen_steps(last.step, film.n_pictures, every)
+        asked = widths or widths_of(timeline)
+        stretched = node_widths(timeline, asked, steps)
+        settled = fitted_widths(last, asked, style, view, stretched.get(last.step))
 
         def pictures() -> Iterator[Pixels]:
             for count, step in enumerate(steps, start=1):
@@ -114,6 +116,7 @@ def animate(
                     timeline.frame(step),
                     color=color,
                     widths=settled,
+                    node_widths=stretched.get(step),
                     sources=sources,
                     scale_bar=scale_bar,
                     units=timeline.units,

@@ -8,7 +8,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from vasc.analysis.elongation import Elongation
 from vasc.analysis.widths import WidthParameters
+from vasc.arrays import Floats
 from vasc.errors import OutputError, VascError
 from vasc.render.keys import size_in_points
 from vasc.render.leaf import View, draw_leaf, fitted_widths, view_at, view_of
@@ -92,7 +94,9 @@ def render(
         if not frames:
             raise VascError("steps: expected at least one step, got none")
         views = _views(frames, style, pixels / DPI)
-        widths = fitted_widths(frames[-1], widths, style, views[-1])
+        stretched = node_widths(timeline, widths, [frame.step for frame in frames])
+        last = frames[-1]
+        widths = fitted_widths(last, widths, style, views[-1], stretched.get(last.step))
         figure, axes = _side_by_side(views, style)
         for frame, view, ax in zip(frames, views, axes, strict=True):
             draw_leaf(
@@ -100,6 +104,7 @@ def render(
                 ax,
                 color=color,
                 widths=widths,
+                node_widths=stretched.get(frame.step),
                 sources=sources,
                 scale_bar=scale_bar and frame is frames[0],
                 key=frame is frames[-1],
@@ -182,6 +187,35 @@ def open_run(run: str | Path | Timeline) -> Iterator[Timeline]:
 def widths_of(timeline: Timeline) -> WidthParameters:
     """Give the widths that a run's config asks for."""
     return WidthParameters.model_validate(timeline.config.get("widths") or {})
+
+
+def node_widths(
+    timeline: Timeline, widths: WidthParameters, steps: Sequence[int]
+) -> dict[int, Floats]:
+    """Give the widths of all nodes at some steps, if elongation tells them.
+
+    Parameters
+    ----------
+    timeline : Timeline
+        The recorded run; all its steps up to the last one asked for are read.
+    widths : WidthParameters
+        Whose ``rule`` is asked.
+    steps : sequence of int
+        Steps of the run.
+
+    Returns
+    -------
+    dict of int to ndarray of shape (n,), float64
+        Empty where Murray's law tells the widths.
+    """
+    if widths.rule != "elongation":
+        return {}
+    elongation, found = Elongation(widths.kappa), {}
+    for step in range(max(steps) + 1):
+        elongation.update(timeline.frame(step))
+        if step in steps:
+            found[step] = elongation.widths
+    return found
 
 
 def _views(frames: Sequence[Frame], style: LeafStyle, side: float) -> list[View]:

@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from vasc.analysis.ancestry import Descent, descent
+from vasc.analysis.elongation import stretched_pipes
 from vasc.analysis.density import vein_length
 from vasc.analysis.moment import Moment
 from vasc.analysis.units import LengthUnit
 from vasc.analysis.widths import Pipes, WidthParameters, pipes, radii
+from vasc.arrays import Floats
 from vasc.render.keys import draw_key, size_in_points
 from vasc.render.looks import Coloring, Paint, Scale, color_segments, fit_widths, width_classes
 from vasc.render.strokes import string_together
@@ -115,6 +117,7 @@ def draw_leaf(
     *,
     color: str = "width",
     widths: WidthParameters | None = None,
+    node_widths: Floats | None = None,
     sources: bool = False,
     scale_bar: bool = True,
     key: bool = True,
@@ -123,7 +126,7 @@ def draw_leaf(
     view: View | None = None,
     last_step: int | None = None,
 ) -> Figure:
-    """Draw a leaf: its blade, and its veins as wide as Murray's law makes them.
+    """Draw a leaf: its blade, and its veins as wide as Murray's law or their elongation make them.
 
     Parameters
     ----------
@@ -136,6 +139,9 @@ def draw_leaf(
         :func:`vasc.render.looks.color_segments`).
     widths : WidthParameters, optional
         Exponent, radii and undrawn veinlets; radii left open are fitted to the picture.
+    node_widths : ndarray of shape (n,), float64, optional
+        Relative width of every node, as :mod:`vasc.analysis.elongation` gives it;
+        Murray's law tells the widths if left out.
     sources : bool
         Whether to draw the live sources.
     scale_bar : bool
@@ -174,7 +180,7 @@ def draw_leaf(
     ax.set_axis_off()
     draw_blade(ax, moment.blade, style)
     painted = Paint(color, style, moment.step if last_step is None else last_step)
-    coloring = _draw_veins(ax, moment, view, painted, widths or WidthParameters())
+    coloring = _draw_veins(ax, moment, view, painted, widths or WidthParameters(), node_widths)
     if sources:
         draw_sources(ax, moment.sources, style, view.points_per_length)
     if scale_bar:
@@ -187,7 +193,11 @@ def draw_leaf(
 
 
 def fitted_widths(
-    moment: Moment, widths: WidthParameters, style: LeafStyle, view: View
+    moment: Moment,
+    widths: WidthParameters,
+    style: LeafStyle,
+    view: View,
+    node_widths: Floats | None = None,
 ) -> WidthParameters:
     """Settle the radii left open for a picture, to use them in other pictures too.
 
@@ -201,13 +211,18 @@ def fitted_widths(
         Limits of line widths.
     view : View
         How large the picture is.
+    node_widths : ndarray of shape (n,), float64, optional
+        As for :func:`draw_leaf`.
 
     Returns
     -------
     WidthParameters
         With a tip radius, so that it draws to scale.
     """
-    counted = pipes(moment.network, veinlets=widths.veinlets)
+    if node_widths is None:
+        counted = pipes(moment.network, veinlets=widths.veinlets)
+    else:
+        counted = stretched_pipes(moment.network, node_widths, widths.exponent)
     return _fit(moment, counted, widths, style, view)
 
 
@@ -253,12 +268,15 @@ def _draw_veins(
     view: View,
     paint: Paint,
     widths: WidthParameters,
+    node_widths: Floats | None,
 ) -> Coloring:
     """Draw all segments, the finest first."""
     network = moment.network
     directions = descent(network)
     counted = pipes(network, veinlets=widths.veinlets, directions=directions)
     coloring = color_segments(network, paint, directions, counted)
+    if node_widths is not None:
+        counted = stretched_pipes(network, node_widths, widths.exponent)
     fitted = _fit(moment, counted, widths, paint.style, view)
     most = float(counted.nodes.max(initial=1.0))
     lines = 2.0 * view.points_per_length * radii(counted.segments, fitted, most)

@@ -204,8 +204,11 @@ def descent(record: Record) -> Findings:
     has_parent = parents != NULL
     is_bad = has_parent & (parents >= np.arange(len(parents)))
     yield from bad_rows("descent", "nodes/parent", is_bad, parents, "must be an earlier row")
-    # a refinement may halve a segment in the step that made it, a source be reached in that step
-    margin = np.where(np.isin(origins, [Origin.REFINEMENT, Origin.SOURCE]), 0, 1)
+    # refinement may replace what a step has made, and veins grow from what it has replaced;
+    # a source may be reached in the step that brought the vein near
+    is_quick = np.isin(origins, [Origin.REFINEMENT, Origin.SOURCE])
+    is_quick |= has_parent & (origins[np.maximum(parents, 0)] == Origin.REFINEMENT)
+    margin = np.where(is_quick, 0, 1)
     is_bad = has_parent & (births[np.maximum(parents, 0)] + margin > births)
     yield from bad_rows("descent", "nodes/parent", is_bad, parents, "must be born earlier")
 
