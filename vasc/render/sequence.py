@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 LINE = 0.19
 """Height of a line of text, in inches."""
-WORDS_WIDTH = 62
+WORDS_WIDTH = 68
 """Characters of a line of the observed sequence."""
 SIZE = (11.0, 1.1)
 """Width of the picture and height of title and axis together, in inches."""
@@ -66,7 +66,7 @@ def draw_sequence(report: Mapping[str, Any], output: str | Path) -> Path:
     axes.set_ylim(tops[-1], 0.0)
     last = max(float(report["run"]["steps"]), 1.0)
     # names of events stand to the right of them
-    axes.set_xlim(-0.02 * last, 1.3 * last)
+    axes.set_xlim(-0.02 * last, 1.4 * last)
     for (words, found), top, bottom in zip(rows, tops[:-1], tops[1:], strict=True):
         _write_words(axes, words, top)
         axes.axhline(bottom, color=PALE, linewidth=0.4)
@@ -107,6 +107,8 @@ def _write_events(
     axes: Axes, found: list[tuple[str, Mapping[str, Any] | None]], top: float
 ) -> None:
     """Mark the events of one observation."""
+    from matplotlib.patheffects import withStroke
+
     for line, (name, event) in enumerate(found):
         y = top + line + 1.0
         title = name.replace("_", " ")
@@ -115,7 +117,8 @@ def _write_events(
             continue
         text = f"  {title}: step {event['step']}, leaf {event['leaf_length']:.3g} D"
         axes.plot(event["step"], y, "o", color=INK, markersize=4.0)
-        axes.text(event["step"], y, text, size=TEXT_SIZE, color=INK, va="center")
+        label = axes.text(event["step"], y, text, size=TEXT_SIZE, color=INK, va="center")
+        label.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
 
 
 def _points(
