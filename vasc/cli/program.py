@@ -8,6 +8,7 @@ import typer
 
 from vasc.cli import (
     animate,
+    check,
     configs,
     events,
     lineage,
@@ -24,6 +25,9 @@ from vasc.cli.start import rare_collections
 
 # the order of a first day with vasc
 VERBS = (configs, run, resume, show, events, lineage, stats, render, animate, verify, schema)
+
+# verbs with verbs of their own: module, names of its functions, and their examples
+GROUPS = ((check, {"sequence": check.SEQUENCE_EXAMPLES}),)
 
 DEBUG = "--debug"
 
@@ -44,6 +48,16 @@ app = typer.Typer(
 for _module in VERBS:
     _name = _module.__name__.rpartition(".")[2]
     app.command(_name, epilog=examples(_module.EXAMPLES))(interruptible(getattr(_module, _name)))
+for _group, _verbs in GROUPS:
+    _below = typer.Typer(rich_markup_mode=None, no_args_is_help=True)
+    for _name, _lines in _verbs.items():
+        _below.command(_name, epilog=examples(_lines))(interruptible(getattr(_group, _name)))
+    app.add_typer(
+        _below,
+        name=_group.__name__.rpartition(".")[2],
+        help="Hold a run against what is expected of it.",
+        epilog=examples(_group.EXAMPLES),
+    )
 
 
 @app.callback(invoke_without_command=True, epilog=examples(["vasc run poplar-leaf"]))

@@ -3,6 +3,7 @@
 from vasc.render.animation import FILM_SUFFIXES, Film, animate
 from vasc.render.files import PICTURE_SUFFIXES, render, save
 from vasc.render.leaf import draw_leaf
+from vasc.render.sequence import draw_sequence
 from vasc.render.styles import COLOR_CHOICES, LeafStyle
 
 __all__ = [
@@ -13,6 +14,7 @@ __all__ = [
     "LeafStyle",
     "animate",
     "draw_leaf",
+    "draw_sequence",
     "render",
     "save",
 ]

@@ -1,0 +1,98 @@
+"""``vasc check``: a run held against what is expected of it."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from vasc.cli.options import AsJson, Force, RunFile
+
+if TYPE_CHECKING:
+    from vasc.validation.arabidopsis import SequenceReport
+
+EXAMPLES = ("vasc check sequence arabidopsis.h5",)
+"""Examples of the group."""
+
+SEQUENCE_EXAMPLES = (
+    "vasc check sequence arabidopsis.h5 -o sequence.png",
+    "vasc check sequence arabidopsis.h5 --json",
+)
+"""Examples of ``vasc check sequence``."""
+
+WORDS = {True: "pass", False: "FAIL", None: "open"}
+"""What a verdict is called in the table."""
+
+
+def sequence(
+    path: RunFile,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", metavar="PICTURE", help="Draw the events: png, svg or pdf."),
+    ] = None,
+    force: Force = False,
+    as_json: AsJson = False,
+) -> None:
+    """Hold a leaf against the sequence observed in the first leaf of Arabidopsis.
+
+    Exit code 1 if a criterion fails; one that cannot be decided is no failure.
+    """
+    from vasc.cli.printing import print_json
+    from vasc.cli.run import check_picture
+    from vasc.validation.arabidopsis import check_sequence
+
+    if output is not None:
+        from vasc.render.files import PICTURE_SUFFIXES, checked_output
+
+        check_picture(output, force=force)
+        checked_output(output, PICTURE_SUFFIXES)
+    report = check_sequence(path)
+    found = report.as_json()
+    if output is not None:
+        from vasc.render import draw_sequence
+
+        draw_sequence(found, output)
+    if as_json:
+        print_json(found | {"files": [] if output is None else [str(output)]})
+    else:
+        _print(report, path, output)
+    if not report.passed:
+        raise typer.Exit(1)
+
+
+def _print(report: "SequenceReport", path: Path, output: Path | None) -> None:
+    """Write the report for people."""
+    from vasc.cli.printing import print_table
+
+    found = report.as_json()
+    rows = [
+        (row["id"], WORDS[row["passed"]], row["value"], f"{row['threshold']}{_mark(row)}")
+        for row in found["criteria"]
+    ]
+    print_table(("", "verdict", "found", "asked (*: a number of ours)"), rows)
+    typer.echo()
+    for row in found["criteria"]:
+        if row["passed"] is not True:
+            typer.echo(f"{row['id']} {WORDS[row['passed']]}: {row['text']} Here: {row['reason']}.")
+    typer.echo("\nevents")
+    events = [
+        (one["name"], one["step"], one["leaf_length"], one["height"]) for one in found["events"]
+    ]
+    print_table(("", "step", "leaf length", "place"), events)
+    typer.echo("\nfeatures of the wild type, at the last step (they do not decide)")
+    for row in found["feature_details"]:
+        typer.echo(f"({row['id']}) {WORDS[row['passed']]}: {row['text']}: {row['value']}")
+        typer.echo(f"    measured as: {row['measure']}")
+    typer.echo(f"\nfarthest from mirror symmetry: {report.symmetry.largest:.3g}")
+    typer.echo(
+        f"final areas at step {found['final_areas']['step']}: {found['final_areas']['note']}"
+    )
+    if output is not None:
+        typer.echo(f"written: {output}")
+    failed, n_open = len(report.failures), len(report.undecided)
+    passed = len(report.criteria) - failed - n_open
+    typer.echo(f"{path}: {passed} criteria pass, {failed} fail, {n_open} cannot be decided")
+
+
+def _mark(row: dict[str, str]) -> str:
+    """Mark a threshold that is in no paper."""
+    return "*" if row["threshold_from"] == "ours" else ""
