@@ -61,7 +61,9 @@ def _explicit_at_birth(record: Record, table: str, births: NDArray) -> NDArray:
     # a stable sort puts the rows of one step side by side
     order = np.argsort(births, kind="stable")
     steps, starts = np.unique(births[order], return_index=True)
-    for step, rows in zip(steps.tolist(), np.split(order, starts[1:]), strict=True):
+    ends = [*starts[1:].tolist(), len(order)]
+    for step, start, end in zip(steps.tolist(), starts.tolist(), ends, strict=False):
+        rows = order[start:end]
         places = record.timeline.places(table, step)
         there = rows[rows < len(places)]
         expected[there] = places[there]
