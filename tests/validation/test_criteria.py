@@ -172,6 +172,14 @@ def test_births_of_a_pair_may_be_three_steps_apart_and_no_more():
     assert {"C3", "C19"} <= failures(with_sources(story, {2}, step=93, time=93.0))
 
 
+def test_places_are_compared_where_the_tissue_is_by_then():
+    story = control_story()
+    # the tissue of pair 1 has moved toward the tip, beyond the pair that follows
+    risen = replace(story, heights=lambda source, step: 0.85)
+    assert Cast(risen).upper.ids == {11, 12}
+    assert Cast(risen).pair_2.ids == {3, 4}
+
+
 def test_steps_half_as_long_are_judged_alike():
     story = with_half_long_steps(control_story())
     assert failures(story) == set()

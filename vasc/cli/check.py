@@ -61,7 +61,7 @@ def sequence(
 
 def _print(report: "SequenceReport", path: Path, output: Path | None) -> None:
     """Write the report for people."""
-    from vasc.cli.printing import print_table
+    from vasc.cli.printing import print_table, shown
 
     found = report.as_json()
     rows = [
@@ -69,10 +69,10 @@ def _print(report: "SequenceReport", path: Path, output: Path | None) -> None:
         for row in found["criteria"]
     ]
     print_table(("", "verdict", "found", "asked (*: a number of ours)"), rows)
-    typer.echo()
-    for row in found["criteria"]:
-        if row["passed"] is not True:
-            typer.echo(f"{row['id']} {WORDS[row['passed']]}: {row['text']} Here: {row['reason']}.")
+    others = [row for row in found["criteria"] if row["passed"] is not True]
+    for index, row in enumerate(others):
+        line = f"{row['id']} {WORDS[row['passed']]}: {row['text']} Here: {row['reason']}."
+        typer.echo(line if index else f"\n{line}")
     typer.echo("\nevents")
     events = [
         (one["name"], one["step"], one["leaf_length"], one["height"]) for one in found["events"]
@@ -80,7 +80,7 @@ def _print(report: "SequenceReport", path: Path, output: Path | None) -> None:
     print_table(("", "step", "leaf length", "place"), events)
     typer.echo("\nfeatures of the wild type, at the last step (they do not decide)")
     for row in found["feature_details"]:
-        typer.echo(f"({row['id']}) {WORDS[row['passed']]}: {row['text']}: {row['value']}")
+        typer.echo(f"({row['id']}) {WORDS[row['passed']]}: {row['text']}: {shown(row['value'])}")
         typer.echo(f"    measured as: {row['measure']}")
     typer.echo(f"\nfarthest from mirror symmetry: {report.symmetry.largest:.3g}")
     typer.echo(

@@ -127,7 +127,8 @@ def blind_ends_after_mesophyll(cast: Cast) -> Verdict:
 
 def _before(first: int, second: int) -> Verdict:
     """Judge whether one step is before another."""
-    return judged(first < second, f"step {first}, then step {second}", "the other way round")
+    reason = "both in one step" if first == second else "the other way round"
+    return judged(first < second, f"step {first}, then step {second}", reason)
 
 
 def _or_none(step: int | None) -> str:

@@ -200,6 +200,8 @@ class _Reading:
         joins = self.events["step"][self.rows(EventKind.VEIN_JOINED)]
         # the event comes first in its step: what ends in that step obeys it
         first = self.timeline.last_step + 1 if step is None else step
+        # without the event a vein ends blindly where it is the first at its source
+        free = blind[:0] if step is None else blind
         return Ending(
             step=step,
             time=None if step is None else self.time(step),
@@ -207,8 +209,8 @@ class _Reading:
             blind_after=int((blind >= first).sum()),
             joins_before=int((joins < first).sum()),
             joins_after=int((joins >= first).sum()),
-            first_blind=int(blind[0]) if len(blind) else None,
-            first_blind_time=self.time(int(blind[0])) if len(blind) else None,
+            first_blind=int(free[0]) if len(free) else None,
+            first_blind_time=self.time(int(free[0])) if len(free) else None,
         )
 
 

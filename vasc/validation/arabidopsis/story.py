@@ -102,7 +102,7 @@ class Ending:
     joins_before, joins_after : int
         Veins that joined another.
     first_blind, first_blind_time : int or None, float or None
-        The first blind end.
+        The first blind end, None in a run without the event.
     """
 
     step: int | None
