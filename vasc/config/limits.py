@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from vasc.config.values import assignment
 
 if TYPE_CHECKING:
-    from vasc.domain import Blade
+    from vasc.domain import Blade, BladeParameters
     from vasc.models.base import Venation
 
 Key = tuple[str | int, ...]
@@ -76,10 +76,11 @@ def size_problems(parameters: "Venation") -> list[str]:
     """
     if problems := _absurd_lengths(parameters):
         return problems
-    if parameters.domain is None:
+    domain = parameters.domain
+    if domain is None:
         return _too_large_frames(parameters)
     segment = parameters.extension.segment_length
-    first, key, last = parameters.domain.length, *_final_length(parameters)
+    first, key, last = domain.length, *_final_length(parameters)
     problems = [
         _too_long(key, last, last / segment),
         _too_short_pieces(parameters, segment),
@@ -93,7 +94,7 @@ def size_problems(parameters: "Venation") -> list[str]:
     is_end_known = _is_end_known(parameters)
     if is_end_known:
         problems.append(_too_small(key, last, "long", last / segment, 1.0))
-    if (ratio := parameters.domain.width) is not None and not any(problems):
+    if (ratio := domain.width) is not None and not any(problems):
         width = ratio * last / segment
         problems.append(_too_long(("domain", "width"), ratio, width))
         if is_end_known:
@@ -121,7 +122,7 @@ def blade_problems(parameters: "Venation", blade: "Blade") -> list[str]:
     low_x, low_y, high_x, high_y = (factor * bound for bound in blade.bounds)
     width, height = high_x - low_x, high_y - low_y
     segment = parameters.extension.segment_length
-    if parameters.domain.width is None:
+    if _domain_of(parameters).width is None:
         found = _too_long(key, last, max(width, height) / segment)
         if not found and _is_end_known(parameters):
             found = _too_small(key, last, "wide", width / segment, NARROWEST)
@@ -153,12 +154,18 @@ def _too_large_frames(parameters: "Venation") -> list[str]:
     return []
 
 
+def _domain_of(parameters: "Venation") -> "BladeParameters":
+    """Give the blade at step 0 of growths that are not key-framed."""
+    assert parameters.domain is not None, "checked"
+    return parameters.domain
+
+
 def _final_length(parameters: "Venation") -> tuple[Key, float]:
     """Give the length of the blade when growth ends, and the key that says it."""
     growth: Any = parameters.growth
     final = getattr(growth, "final_length", None)
     if final is None:
-        return ("domain", "length"), parameters.domain.length
+        return ("domain", "length"), _domain_of(parameters).length
     return ("growth", "final_length"), float(final)
 
 
@@ -241,7 +248,7 @@ def _wrong_number_of_darts(parameters: "Venation", area: float, box: float) -> s
     if placement.reading == "largest_blade":
         # the darts of all steps are thrown before the first one
         growth: Any = parameters.growth
-        n_steps = (growth.final_length - parameters.domain.length) / growth.length_per_step
+        n_steps = (growth.final_length - _domain_of(parameters).length) / growth.length_per_step
         n_darts = placement.density * box * max(n_steps, 1.0)
     is_enough = n_darts >= FEWEST_DARTS or not _is_end_known(parameters)
     if is_enough and n_darts <= MOST_DARTS:

@@ -88,6 +88,7 @@ def regime(parameters: "Venation") -> Regime:
 def crossing(parameters: "Venation") -> float:
     """Give T = (D / dL) ln(L_f / L_i) of an isogonically growing leaf."""
     growth: Any = parameters.growth
+    assert parameters.domain is not None, "isogonic growth has a domain"
     ratio = growth.final_length / parameters.domain.length
     return parameters.extension.segment_length / growth.length_per_step * math.log(ratio)
 

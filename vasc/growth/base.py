@@ -92,9 +92,7 @@ class Growth(ABC):
         """
 
     @abstractmethod
-    def embed(
-        self, places: Points, step: int, near: Points | None = None
-    ) -> tuple[Points, Points]:
+    def embed(self, places: Points, step: int, near: Points | None = None) -> tuple[Points, Points]:
         """Give the material points at places at a step, and the positions of those."""
 
     @abstractmethod
@@ -167,9 +165,7 @@ class Similarity(Growth):
         """Give the material points that are at positions at a step, shape (n, 2)."""
         return position / self.scale(step)
 
-    def embed(
-        self, places: Points, step: int, near: Points | None = None
-    ) -> tuple[Points, Points]:
+    def embed(self, places: Points, step: int, near: Points | None = None) -> tuple[Points, Points]:
         """Give the places themselves, which are material points, and their positions."""
         return places, places * self.scale(step)
 
@@ -232,9 +228,7 @@ class Deformation(Growth):
         material = (1.0 - shares[:, None]) * first + shares[:, None] * second
         return material, self.position(material, step)
 
-    def embed(
-        self, places: Points, step: int, near: Points | None = None
-    ) -> tuple[Points, Points]:
+    def embed(self, places: Points, step: int, near: Points | None = None) -> tuple[Points, Points]:
         """Give the material points nearest to places, and their positions.
 
         Outside the blade these are points of the margin.

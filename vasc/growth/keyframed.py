@@ -184,7 +184,11 @@ def least_determinants(
     with np.errstate(divide="ignore", invalid="ignore"):
         vertex = np.where(curvature > 0.0, (start - 0.5 * middle) / curvature, 0.0)
     inner = np.clip(vertex, 0.0, 1.0)
-    values = [start, stop, start * (1 - inner) ** 2 + middle * inner * (1 - inner) + stop * inner**2]
+    values = [
+        start,
+        stop,
+        start * (1 - inner) ** 2 + middle * inner * (1 - inner) + stop * inner**2,
+    ]
     shares = [np.zeros_like(start), np.ones_like(start), inner]
     which = np.argmin(values, axis=0)[None]
     return (

@@ -40,9 +40,7 @@ class Areolation:
         smallest = min(rings, key=lambda ring: polygon_area(places[ring]))
         parent = areole_at(veins, inner_point(places[smallest]))
         for ring in rings:
-            row = veins.tables["areoles"].append(
-                birth=moment.step, parent=parent, segment=segment
-            )
+            row = veins.tables["areoles"].append(birth=moment.step, parent=parent, segment=segment)
             veins.tables["boundaries"].append(areole=row.start, node=np.array(ring, np.int32))
             if parent == NULL:
                 veins.log(moment.step, EventKind.AREOLE_BORN, row.start, segment)

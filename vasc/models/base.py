@@ -152,8 +152,10 @@ class Venation(Parameters):
                 else f"domain: missing; growth.kind = {growth.kind!r} needs a table [domain] with the"
                 " length of the blade"
             )
-        if isinstance(growth, LinearGrowthParameters) and self.domain and (
-            growth.final_length < self.domain.length
+        if (
+            isinstance(growth, LinearGrowthParameters)
+            and self.domain
+            and (growth.final_length < self.domain.length)
         ):
             raise ValueError(
                 f"growth.final_length is {growth.final_length:g}; it must be at least"

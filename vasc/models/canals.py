@@ -1,5 +1,6 @@
 """Canals: polarized tissue between a source and its relative neighbours (Runions 2008, 5.2.3)."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -109,7 +110,7 @@ class CanalPerception(Perception[Canals]):
         tips = [canal.tip for canal in self.canals.under_way()]
         return np.array(sorted({*tips, *self.canals.drained.values()}), dtype=np.int32)
 
-    def follow(self, veins: Vasculature, moment: Moment, cuts: list[Cut]) -> None:
+    def follow(self, veins: Vasculature, moment: Moment, cuts: Sequence[Cut]) -> None:
         """Let canals lead to the nearer of the two nodes that replace one."""
         places, sources = veins.places("nodes"), veins.places("sources")
         for cut in cuts:
@@ -178,7 +179,9 @@ def latest(events: Table, kind: EventKind) -> dict[int, int]:
     """Give the last object of each subject among the events of a kind."""
     rows = events.view("kind") == kind
     return dict(
-        zip(events.view("subject")[rows].tolist(), events.view("object")[rows].tolist(), strict=True)
+        zip(
+            events.view("subject")[rows].tolist(), events.view("object")[rows].tolist(), strict=True
+        )
     )
 
 

@@ -13,7 +13,6 @@ from vasc.parameters import Parameters, quantity
 from vasc.placement import Moment
 from vasc.vasculature import Vasculature
 
-
 A = TypeVar("A")
 """What an extension needs to know of a perception."""
 

@@ -28,9 +28,7 @@ class StrandExtension(Extension[Canals]):
         What then remains between a strand and the vein it does not join, in D.
     """
 
-    def __init__(
-        self, segment_length: float, mesophyll_step: int | None, blind_gap: float
-    ) -> None:
+    def __init__(self, segment_length: float, mesophyll_step: int | None, blind_gap: float) -> None:
         self._segment_length = segment_length
         self.mesophyll_step = mesophyll_step
         self.blind_gap = blind_gap
@@ -169,9 +167,7 @@ class DrainingArrival(Arrival):
         columns = veins.sources.arrays
         material, place = columns["material"][row], veins.places("sources")[row]
         tip = np.array([canal.tip], dtype=np.int32)
-        node = append(
-            veins, step, tip, material, place * moment.scale, source, Origin.SOURCE
-        )
+        node = append(veins, step, tip, material, place * moment.scale, source, Origin.SOURCE)
         veins.perceived.members[source, 0] = node[0]
         veins.remove_sources(step, np.array([source], dtype=np.int32))
         veins.log(step, EventKind.STRAND_EXTENDED, canal.id, node)

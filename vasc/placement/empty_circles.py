@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.spatial import Delaunay, QhullError
 
 from vasc import kernels
-from vasc.arrays import Floats, Points
+from vasc.arrays import Floats, Ids, Points
 from vasc.errors import ConfigError
 from vasc.growth import MARGIN_SPACING, Growth
 from vasc.parameters import Parameters, quantity
@@ -124,7 +124,7 @@ class Room:
         self._corner = np.array([*(low - 0.5 * side), side])
         starts = np.array([0, len(self._margin)], dtype=np.int32)
         self._cells = kernels.polygon.raster(
-            self._margin, starts, 1.0, *self._corner.tolist(), self._columns, rows
+            self._margin, starts, 1.0, self._corner[0], self._corner[1], side, self._columns, rows
         )
         self._box = (*low.tolist(), *high.tolist())
         self._margin_grid = self._grid_of(self._margin)
@@ -236,7 +236,7 @@ class Room:
         radii[~is_free] = -np.inf
         is_peak = (radii >= np.roll(radii, 1)) & (radii >= np.roll(radii, -1)) & is_free
         is_peak &= radii > self.limit - MARGIN_SPACING / self.moment.scale
-        peaks = np.flatnonzero(is_peak)
+        peaks = np.flatnonzero(is_peak).astype(np.int32)
         # the neighbouring gaps of each peak, but for those of the base
         rows = np.unique(np.concatenate([peaks, (peaks - 1) % ring]))
         following = (rows + 1) % ring
@@ -255,7 +255,7 @@ class Room:
             np.concatenate([refined[is_better], radii[peaks]]),
         )
 
-    def _refined(self, rows: Points) -> Floats:
+    def _refined(self, rows: Ids) -> Floats:
         """Give the share of each gap of the margin at which there is most room, shape (k,).
 
         Golden section. Gaps left of the midline are searched backwards, as the

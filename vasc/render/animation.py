@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vasc.analysis.widths import WidthParameters
 from vasc.errors import OutputError, VascError
-from vasc.render.files import checked_output, open_run, node_widths, widths_of
+from vasc.render.files import checked_output, node_widths, open_run, widths_of
 from vasc.render.leaf import draw_leaf, fitted_widths, view_of
 from vasc.render.styles import DPI, LeafStyle
 

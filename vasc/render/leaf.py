@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from vasc.analysis.ancestry import Descent, descent
-from vasc.analysis.elongation import stretched_pipes
 from vasc.analysis.density import vein_length
+from vasc.analysis.elongation import stretched_pipes
 from vasc.analysis.moment import Moment
 from vasc.analysis.units import LengthUnit
 from vasc.analysis.widths import Pipes, WidthParameters, pipes, radii
