@@ -144,18 +144,20 @@ class Venation(Parameters):
     def _check_growth(self) -> "Venation":
         """Refuse a blade that would have to shrink, and placements that need marginal growth."""
         growth, placement = self.growth, self.placement
-        if isinstance(growth, KeyframedParameters) != (self.domain is None):
+        if isinstance(growth, KeyframedParameters) and self.domain is not None:
             raise ValueError(
                 "domain: key-frames tell the blade, so that growth.kind = 'keyframed' allows no"
-                " [domain]"
-                if self.domain
-                else f"domain: missing; growth.kind = {growth.kind!r} needs a table [domain] with the"
+                " table [domain]"
+            )
+        if not isinstance(growth, KeyframedParameters) and self.domain is None:
+            raise ValueError(
+                f"domain: missing; growth.kind = {growth.kind!r} needs a table [domain] with the"
                 " length of the blade"
             )
         if (
             isinstance(growth, LinearGrowthParameters)
-            and self.domain
-            and (growth.final_length < self.domain.length)
+            and self.domain is not None
+            and growth.final_length < self.domain.length
         ):
             raise ValueError(
                 f"growth.final_length is {growth.final_length:g}; it must be at least"
