@@ -26,19 +26,23 @@ WRONG = {
     "unknown kind": (config(top='kind = "closd"'), 'kind = "closd"', 'nearest: "closed"'),
     "kind of a wrong type": (config(top="kind = 3"), "kind = 3", '"open", "closed"'),
     "no domain": (config(domain=None), "domain: missing", "[domain]", "length"),
-    "no placement": (config(placement=None), "placement: missing", '"darts", "given"'),
+    "no placement": (
+        config(placement=None),
+        "placement: missing",
+        '"darts", "empty_circles", "given"',
+    ),
     "no arrival": (config(arrival=None), "arrival: missing", "kill_distance"),
     "table of no kind": (config(growth="final_length = 60.0"), "growth.kind: missing", '"none"'),
     "table of an unknown kind": (
         config(growth='kind = "isogenic"'),
         'growth.kind = "isogenic"',
-        '"isogonic", "marginal", "none"',
+        '"isogonic", "keyframed", "marginal", "none"',
         'nearest: "isogonic"',
     ),
     "kind of a table of a wrong type": (
         config(placement="kind = true"),
         "placement.kind = true",
-        '"darts", "given"',
+        '"darts", "empty_circles", "given"',
     ),
     "perception of the other model": (
         config(perception='kind = "nearest"'),
@@ -48,7 +52,7 @@ WRONG = {
     "refinement of an unknown kind": (
         config(refinement='kind = "halving"'),
         'refinement.kind = "halving"',
-        '"none", "subdivision"',
+        '"corner_cutting", "none", "subdivision"',
     ),
     "number in the place of a table": (
         config(top='kind = "closed"\nrecord = 3'),
@@ -58,7 +62,7 @@ WRONG = {
     "text in the place of a table of kinds": (
         config(top='kind = "closed"\nrefinement = "none"'),
         'refinement = "none"',
-        'a table with kind one of "none", "subdivision"',
+        'a table with kind one of "corner_cutting", "none", "subdivision"',
     ),
     # keys
     "misspelt key": (

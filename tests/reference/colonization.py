@@ -101,7 +101,8 @@ def halve(leaf, rules, scale):
         for segment in long:
             a, b = leaf.segments[segment]
             (ax, ay), (bx, by) = leaf.nodes[a], leaf.nodes[b]
-            leaf.refined.append((segment, leaf.add_node(((ax + bx) / 2, (ay + by) / 2), a, -1)))
+            middle = leaf.add_node(((ax + bx) / 2, (ay + by) / 2), a, leaf.causes[b])
+            leaf.refined.append((segment, middle))
         for segment, middle in leaf.refined[-len(long) :]:
             a, b = leaf.segments[segment]
             leaf.segments += [(a, middle), (middle, b)]

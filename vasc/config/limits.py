@@ -10,7 +10,7 @@ from vasc.config.values import assignment
 
 if TYPE_CHECKING:
     from vasc.domain import Blade, BladeParameters
-    from vasc.models.base import Venation
+    from vasc.models.base import LeafVenation
 
 Key = tuple[str | int, ...]
 
@@ -61,12 +61,12 @@ CELLS_PER_DISTANCE = 4.0
 """Cells along the distance that sources keep from veins, as in :mod:`vasc.kernels.darts`."""
 
 
-def size_problems(parameters: "Venation") -> list[str]:
+def size_problems(parameters: "LeafVenation") -> list[str]:
     """Describe lengths that cannot be, from the parameters alone.
 
     Parameters
     ----------
-    parameters : Venation
+    parameters : LeafVenation
         The parameters of a config.
 
     Returns
@@ -102,12 +102,12 @@ def size_problems(parameters: "Venation") -> list[str]:
     return [problem for problem in problems if problem]
 
 
-def blade_problems(parameters: "Venation", blade: "Blade") -> list[str]:
+def blade_problems(parameters: "LeafVenation", blade: "Blade") -> list[str]:
     """Describe what a blade of this outline is too large or too small for.
 
     Parameters
     ----------
-    parameters : Venation
+    parameters : LeafVenation
         Parameters in which :func:`size_problems` finds nothing.
     blade : Blade
         Their blade at step 0.
@@ -139,7 +139,7 @@ def blade_problems(parameters: "Venation", blade: "Blade") -> list[str]:
     return [problem for problem in problems if problem]
 
 
-def _too_large_frames(parameters: "Venation") -> list[str]:
+def _too_large_frames(parameters: "LeafVenation") -> list[str]:
     """Describe key-frames that are too large for a margin of points a segment apart."""
     growth: Any = parameters.growth
     segment = parameters.extension.segment_length
@@ -154,13 +154,13 @@ def _too_large_frames(parameters: "Venation") -> list[str]:
     return []
 
 
-def _domain_of(parameters: "Venation") -> "BladeParameters":
+def _domain_of(parameters: "LeafVenation") -> "BladeParameters":
     """Give the blade at step 0 of growths that are not key-framed."""
     assert parameters.domain is not None, "checked"
     return parameters.domain
 
 
-def _final_length(parameters: "Venation") -> tuple[Key, float]:
+def _final_length(parameters: "LeafVenation") -> tuple[Key, float]:
     """Give the length of the blade when growth ends, and the key that says it."""
     growth: Any = parameters.growth
     final = getattr(growth, "final_length", None)
@@ -169,7 +169,7 @@ def _final_length(parameters: "Venation") -> tuple[Key, float]:
     return ("growth", "final_length"), float(final)
 
 
-def _is_end_known(parameters: "Venation") -> bool:
+def _is_end_known(parameters: "LeafVenation") -> bool:
     """Tell whether the size at the end is known: an installed growth may keep it to itself."""
     growth: Any = parameters.growth
     return growth.kind == "none" or getattr(growth, "final_length", None) is not None
@@ -195,7 +195,7 @@ def _too_small(key: Key, value: float, across: str, n_segments: float, least: fl
     )
 
 
-def _too_short_pieces(parameters: "Venation", segment: float) -> str:
+def _too_short_pieces(parameters: "LeafVenation", segment: float) -> str:
     """Describe a refinement into pieces that are far too many; empty if they are not."""
     refinement: Any = parameters.refinement
     if refinement.kind != "subdivision":
@@ -213,7 +213,7 @@ def _too_short_pieces(parameters: "Venation", segment: float) -> str:
     )
 
 
-def _too_late(parameters: "Venation") -> str:
+def _too_late(parameters: "LeafVenation") -> str:
     """Describe the first source that is given for a step no run can record; empty if none is."""
     births = getattr(parameters.placement, "births", None) or []
     for row, step in enumerate(births):
@@ -225,7 +225,7 @@ def _too_late(parameters: "Venation") -> str:
     return ""
 
 
-def _absurd_lengths(parameters: "Venation") -> list[str]:
+def _absurd_lengths(parameters: "LeafVenation") -> list[str]:
     """Describe the lengths that are so large or small that no computer can compare them."""
     found = []
     for key in LENGTHS:
@@ -238,7 +238,7 @@ def _absurd_lengths(parameters: "Venation") -> list[str]:
     return found
 
 
-def _wrong_number_of_darts(parameters: "Venation", area: float, box: float) -> str:
+def _wrong_number_of_darts(parameters: "LeafVenation", area: float, box: float) -> str:
     """Describe a density of darts that cannot be thrown at once; empty if it can.
 
     The areas are those of the largest blade and of the box around it.
@@ -263,7 +263,7 @@ def _wrong_number_of_darts(parameters: "Venation", area: float, box: float) -> s
     return f"{line}, more than memory can hold; at most {MOST_DARTS:g} are allowed"
 
 
-def _too_many_cells(parameters: "Venation", box: float) -> str:
+def _too_many_cells(parameters: "LeafVenation", box: float) -> str:
     """Describe a blade that is too large for the distance kept from veins; empty if it is not."""
     placement: Any = parameters.placement
     if placement.reading == "largest_blade":

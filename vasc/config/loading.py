@@ -15,7 +15,7 @@ from vasc.config.values import assignment
 from vasc.errors import ConfigError, OutlineError, TimelineError, VascError
 
 if TYPE_CHECKING:
-    from vasc.models.base import Model, Venation
+    from vasc.models.base import LeafVenation, Model
 
 FILES_KEY = "files"
 """Key of a timeline's config under which the referenced files travel."""
@@ -29,7 +29,7 @@ class Experiment:
     ----------
     name : str
         Name of the config, without folder and suffix.
-    parameters : Venation
+    parameters : LeafVenation
         What to run.
     toml : str
         The config as it was given, with the values set outside of the file.
@@ -42,7 +42,7 @@ class Experiment:
     """
 
     name: str
-    parameters: "Venation"
+    parameters: "LeafVenation"
     toml: str
     folder: Path
     files: dict[str, str] = field(default_factory=dict, repr=False)
@@ -186,7 +186,7 @@ def experiment_from_record(record: Mapping[str, Any], *, name: str) -> Iterator[
         yield Experiment(name, parameters, "", folder, files, label)
 
 
-def _checked(tables: dict[str, Any], folder: Path, label: str) -> "Venation":
+def _checked(tables: dict[str, Any], folder: Path, label: str) -> "LeafVenation":
     """Check tables, files and the blade; a problem becomes one line that begins with the label."""
     from vasc.config.schema import parameters_from
 
@@ -202,7 +202,7 @@ def _checked(tables: dict[str, Any], folder: Path, label: str) -> "Venation":
     return parameters
 
 
-def _geometry_problems(parameters: "Venation", folder: Path) -> list[str]:
+def _geometry_problems(parameters: "LeafVenation", folder: Path) -> list[str]:
     """Describe a blade that cannot be made, or is of a size that no run can hold."""
     if problems := size_problems(parameters):
         return problems

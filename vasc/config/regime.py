@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from vasc.models.base import Venation
+    from vasc.models.base import LeafVenation
 
 MARGINAL_CLASSES = (
     (1.0, "the tips of veins keep up with the margin: pinnate, with secondaries to the margin"),
@@ -52,12 +52,12 @@ class Regime:
     warnings: list[str] = field(default_factory=list)
 
 
-def regime(parameters: "Venation") -> Regime:
+def regime(parameters: "LeafVenation") -> Regime:
     """Give the numbers that decide the pattern of a leaf.
 
     Parameters
     ----------
-    parameters : Venation
+    parameters : LeafVenation
         A checked config.
 
     Returns
@@ -85,7 +85,7 @@ def regime(parameters: "Venation") -> Regime:
     return found
 
 
-def crossing(parameters: "Venation") -> float:
+def crossing(parameters: "LeafVenation") -> float:
     """Give T = (D / dL) ln(L_f / L_i) of an isogonically growing leaf."""
     growth: Any = parameters.growth
     assert parameters.domain is not None, "isogonic growth has a domain"

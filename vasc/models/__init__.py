@@ -1,7 +1,7 @@
 """Models of vascular development: each a choice of parts for one sentence."""
 
 from vasc.models.areole import AreoleVenation
-from vasc.models.base import Model, Venation
+from vasc.models.base import LeafVenation, Model, Venation
 from vasc.models.closed import ClosedVenation
 from vasc.models.open import OpenVenation
 from vasc.parameters import Parameters
@@ -13,4 +13,12 @@ MODELS: dict[str, type[Parameters]] = {
 }
 """Configs of our models by kind; ``vasc.config`` knows installed ones, too."""
 
-__all__ = ["MODELS", "AreoleVenation", "ClosedVenation", "Model", "OpenVenation", "Venation"]
+__all__ = [
+    "MODELS",
+    "AreoleVenation",
+    "ClosedVenation",
+    "LeafVenation",
+    "Model",
+    "OpenVenation",
+    "Venation",
+]

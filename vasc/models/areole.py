@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Literal
 
-from vasc.models.base import Venation
+from vasc.models.base import LeafVenation
 from vasc.models.canals import CanalPerception, Canals
 from vasc.models.colonization import Colonization
 from vasc.models.mesophyll import AnyMesophyll, MesophyllNever
@@ -31,7 +31,7 @@ class StrandParameters(Parameters):
     )
 
 
-class AreoleVenation(Venation):
+class AreoleVenation(LeafVenation):
     """A source is reached by its closest neighbour; from it veins go on to the others."""
 
     kind: Literal["areole"] = "areole"

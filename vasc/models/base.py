@@ -107,8 +107,8 @@ class PrintedParameters(Parameters):
     reading: str | None = quantity("How they were read, and why.", default=None)
 
 
-class Venation(Parameters):
-    """What the configs of open and closed leaf venation have in common."""
+class LeafVenation(Parameters):
+    """What the configs of leaf venation have in common."""
 
     title: str = quantity("One sentence on the experiment.", default="")
     reference: str = quantity("The figure or paper it follows.", default="")
@@ -118,7 +118,7 @@ class Venation(Parameters):
     )
     growth: AnyGrowth = quantity("How the blade grows.", default=NoGrowthParameters())
     placement: AnyPlacement = quantity("Where sources appear.")
-    extension: Any
+    extension: Any = quantity("How veins extend.")
     arrival: ArrivalParameters = quantity("When sources are reached.")
     refinement: AnyRefinement = quantity(
         "What becomes of stretched segments.", default=NoRefinementParameters()
@@ -129,7 +129,7 @@ class Venation(Parameters):
     printed: PrintedParameters | None = quantity("Values as printed.", default=None)
 
     @model_validator(mode="after")
-    def _check_kill_distance(self) -> "Venation":
+    def _check_kill_distance(self) -> "LeafVenation":
         """Refuse kill distances that veins step over (they would livelock)."""
         kill, length = self.arrival.kill_distance, self.extension.segment_length
         if kill < length:
@@ -141,7 +141,7 @@ class Venation(Parameters):
         return self
 
     @model_validator(mode="after")
-    def _check_growth(self) -> "Venation":
+    def _check_growth(self) -> "LeafVenation":
         """Refuse a blade that would have to shrink, and placements that need marginal growth."""
         growth, placement = self.growth, self.placement
         if isinstance(growth, KeyframedParameters) and self.domain is not None:
@@ -175,7 +175,7 @@ class Venation(Parameters):
         return self
 
     @model_validator(mode="after")
-    def _check_until(self) -> "Venation":
+    def _check_until(self) -> "LeafVenation":
         """Refuse a last step of darts where they are thrown once."""
         placement = self.placement
         if not isinstance(placement, DartParameters) or placement.reading == "each_step":
@@ -223,7 +223,7 @@ class Venation(Parameters):
         """Give the model; files are looked for in ``folder``."""
 
 
-class PulledVenation(Venation):
+class Venation(LeafVenation):
     """What open and closed venation have in common: sources pull veins."""
 
     extension: ExtensionParameters = quantity("How veins extend.", default=ExtensionParameters())

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from vasc.models.arrival import TaggedArrival
-from vasc.models.base import PulledVenation
+from vasc.models.base import Venation
 from vasc.models.colonization import Colonization
 from vasc.models.perception import Attraction, RelativeParameters, UrquhartParameters
 from vasc.parameters import quantity
@@ -14,7 +14,7 @@ from vasc.parameters import quantity
 AnyPerception = Annotated[RelativeParameters | UrquhartParameters, Field(discriminator="kind")]
 
 
-class ClosedVenation(PulledVenation):
+class ClosedVenation(Venation):
     """Each source attracts its relative neighbours and dies when all awaited have arrived."""
 
     kind: Literal["closed"] = "closed"

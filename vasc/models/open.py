@@ -4,13 +4,13 @@ from pathlib import Path
 from typing import Literal
 
 from vasc.models.arrival import FirstArrival
-from vasc.models.base import PulledVenation
+from vasc.models.base import Venation
 from vasc.models.colonization import Colonization
 from vasc.models.perception import Attraction, NearestParameters
 from vasc.parameters import quantity
 
 
-class OpenVenation(PulledVenation):
+class OpenVenation(Venation):
     """Each source attracts the nearest node and dies when the first vein arrives."""
 
     kind: Literal["open"] = "open"

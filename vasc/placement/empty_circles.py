@@ -4,7 +4,6 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import Delaunay, QhullError
 
 from vasc import kernels
 from vasc.arrays import Floats, Ids, Points
@@ -179,6 +178,8 @@ class Room:
 
     def _interior(self, sites: Points) -> Circles:
         """Give the corners of the Voronoi diagram of some sites that lie in open cells."""
+        from scipy.spatial import Delaunay, QhullError
+
         try:
             triangles = Delaunay(sites).simplices if len(sites) > 3 else np.empty((0, 3), int)
         except QhullError:
