@@ -72,7 +72,8 @@ class CompressedColumn:
     def _write_part(self, start: int, rows: NDArray) -> None:
         """Write rows of one chunk from ``start`` on, keeping the rows before them."""
         first = start // self._chunk_rows * self._chunk_rows
-        chunk = np.full((self._chunk_rows, *self._row_shape), fill_value(self.dtype))
+        shape = (self._chunk_rows, *self._row_shape)
+        chunk = np.full(shape, fill_value(self.dtype), dtype=self.dtype)
         if start > first:
             self._transfer(first, chunk[: start - first], is_read=True)
         chunk[start - first : start - first + len(rows)] = rows
