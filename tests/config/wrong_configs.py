@@ -32,7 +32,7 @@ WRONG = {
     "table of an unknown kind": (
         config(growth='kind = "isogenic"'),
         'growth.kind = "isogenic"',
-        '"isogonic", "marginal", "none"',
+        '"isogonic", "local_to_global", "marginal", "none"',
         'nearest: "isogonic"',
     ),
     "kind of a table of a wrong type": (

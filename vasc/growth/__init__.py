@@ -2,6 +2,7 @@
 
 from vasc.growth.base import Deformation, Growth, LinearGrowthParameters, Similarity
 from vasc.growth.isogonic import IsogonicGrowth, IsogonicParameters
+from vasc.growth.local_to_global import LocalToGlobalGrowth, LocalToGlobalParameters
 from vasc.growth.marginal import MarginalGrowth, MarginalParameters
 from vasc.growth.none import NoGrowth, NoGrowthParameters
 from vasc.parameters import Parameters
@@ -10,6 +11,7 @@ GROWTHS: dict[str, type[Parameters]] = {
     "none": NoGrowthParameters,
     "marginal": MarginalParameters,
     "isogonic": IsogonicParameters,
+    "local_to_global": LocalToGlobalParameters,
 }
 """Parameters of our growths by kind; configs know installed ones, too."""
 
@@ -20,6 +22,8 @@ __all__ = [
     "IsogonicGrowth",
     "IsogonicParameters",
     "LinearGrowthParameters",
+    "LocalToGlobalGrowth",
+    "LocalToGlobalParameters",
     "MarginalGrowth",
     "MarginalParameters",
     "NoGrowth",

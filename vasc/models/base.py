@@ -9,8 +9,10 @@ from pydantic import Field, model_validator
 from vasc import kernels
 from vasc.domain import BladeParameters
 from vasc.growth import (
+    Growth,
     IsogonicParameters,
     LinearGrowthParameters,
+    LocalToGlobalParameters,
     MarginalParameters,
     NoGrowthParameters,
 )
@@ -44,7 +46,8 @@ class Model(ABC):
 
 
 AnyGrowth = Annotated[
-    NoGrowthParameters | MarginalParameters | IsogonicParameters, Field(discriminator="kind")
+    NoGrowthParameters | MarginalParameters | IsogonicParameters | LocalToGlobalParameters,
+    Field(discriminator="kind"),
 ]
 AnyPlacement = Annotated[DartParameters | GivenParameters, Field(discriminator="kind")]
 AnyRefinement = Annotated[
@@ -168,7 +171,11 @@ class Venation(Parameters):
 
     def parts(self, folder: Path) -> dict[str, Any]:
         """Give the parts of the sentence that do not depend on the kind of venation."""
-        growth = self.growth.growth(self.domain.blade(folder))
+        blade = self.domain.blade(folder)
+        if isinstance(self.growth, LocalToGlobalParameters):
+            growth: Growth = self.growth.growth(blade, folder)
+        else:
+            growth = self.growth.growth(blade)
         kill, length = self.arrival.kill_distance, self.extension.segment_length
         placement = self.placement
         if isinstance(placement, DartParameters):
