@@ -169,13 +169,16 @@ class Venation(Parameters):
             )
         return self
 
-    def parts(self, folder: Path) -> dict[str, Any]:
-        """Give the parts of the sentence that do not depend on the kind of venation."""
+    def grown(self, folder: Path) -> Growth:
+        """Give the growing blade; files are looked for in ``folder``."""
         blade = self.domain.blade(folder)
         if isinstance(self.growth, LocalToGlobalParameters):
-            growth: Growth = self.growth.growth(blade, folder)
-        else:
-            growth = self.growth.growth(blade)
+            return self.growth.growth(blade, folder)
+        return self.growth.growth(blade)
+
+    def parts(self, folder: Path) -> dict[str, Any]:
+        """Give the parts of the sentence that do not depend on the kind of venation."""
+        growth = self.grown(folder)
         kill, length = self.arrival.kill_distance, self.extension.segment_length
         placement = self.placement
         if isinstance(placement, DartParameters):
