@@ -7,6 +7,7 @@ import shutil
 
 import h5py
 import pytest
+from PIL import Image
 
 from vasc.cli import main
 from vasc.timeline import Timeline
@@ -239,6 +240,30 @@ def test_a_picture_of_an_unknown_color_or_suffix_is_refused(leaf, tmp_path, caps
         assert main(["render", leaf, *arguments]) == 2
         assert capsys.readouterr().err.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
+
+
+def test_growth_is_drawn_between_the_steps_asked_for(leaf, tmp_path, capsys):
+    picture = tmp_path / "growth.svg"
+    arguments = ["render", leaf, "-o", str(picture), "--growth"]
+    assert "growth.svg" in output([*arguments, "--step", "20", "--step", "0"], capsys)
+    two = picture.read_text()
+    assert "<svg" in two
+    output([*arguments, "--force"], capsys)
+    assert len(picture.read_text()) > len(two)
+    assert main([*arguments, "--force", "--step", "9999"]) == 2
+    assert "step 9999 is not recorded" in capsys.readouterr().err
+    assert main(["render", leaf, "-o", str(tmp_path / "a.bmp"), "--growth"]) == 2
+    assert "'.bmp'" in capsys.readouterr().err
+
+
+def test_several_steps_are_drawn_side_by_side(leaf, tmp_path, capsys):
+    sizes = []
+    for name, steps in (("one.png", ["40"]), ("two.png", ["20", "40"])):
+        chosen = [word for step in steps for word in ("--step", step)]
+        output(["render", leaf, "-o", str(tmp_path / name), *chosen], capsys)
+        with Image.open(tmp_path / name) as picture:
+            sizes.append(picture.size)
+    assert sizes[1][0] > 1.3 * sizes[0][0]
 
 
 def test_a_film_is_made(leaf, tmp_path, capsys):

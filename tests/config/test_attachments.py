@@ -34,6 +34,24 @@ def test_files_are_found_in_every_table():
     assert referenced_files(tables) == {("domain", "file"): "a", ("x", "y", "file"): "b"}
 
 
+def test_files_are_found_in_lists_of_tables():
+    tables = {"growth": {"outlines": [{"t": 0.0, "file": "a"}, {"file": "b"}], "g": [1.0, 2.0]}}
+    found = referenced_files(tables)
+    assert found == {
+        ("growth", "outlines", 0, "file"): "a",
+        ("growth", "outlines", 1, "file"): "b",
+    }
+
+
+def test_packed_files_of_lists_are_renamed(tmp_path):
+    (tmp_path / "a.csv").write_bytes(OUTLINE)
+    tables = {"growth": {"outlines": [{"file": "a.csv"}], "points": [[0.0, 1.0]]}}
+    with unpacked(tables, packed(tables, tmp_path)) as (renamed, folder):
+        (outline,) = renamed["growth"]["outlines"]
+        assert (folder / outline["file"]).read_bytes() == OUTLINE
+        assert renamed["growth"]["points"] == [[0.0, 1.0]]
+
+
 def test_a_recorded_run_has_its_files_when_the_folder_is_gone(folder):
     experiment = load_text(CONFIG, folder=folder)
     record = experiment.record

@@ -36,7 +36,7 @@ WRONG = {
     "table of an unknown kind": (
         config(growth='kind = "isogenic"'),
         'growth.kind = "isogenic"',
-        '"isogonic", "keyframed", "marginal", "none"',
+        '"isogonic", "keyframed", "local_to_global", "marginal", "none"',
         'nearest: "isogonic"',
     ),
     "kind of a table of a wrong type": (

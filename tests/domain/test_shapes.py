@@ -9,7 +9,7 @@ from pydantic import ValidationError
 
 from vasc.domain import SHAPES, Blade
 from vasc.domain.palmate import Fan, Lobed, Reniform
-from vasc.domain.shapes import Bilobed, Cordate, Elliptic, Linear, Obovate, Orbicular, Ovate
+from vasc.domain.shapes import Bilobed, Cordate, Dome, Elliptic, Linear, Obovate, Orbicular, Ovate
 
 NAMES = sorted(SHAPES)
 
@@ -145,6 +145,15 @@ def test_a_fan_has_straight_sides_and_a_notch_where_wanted():
     # the second point is the shoulder, straight from the attachment at half the opening
     shoulder = ring[1]
     assert shoulder[0] / shoulder[1] == pytest.approx(np.tan(np.radians(62.5)), rel=1e-9)
+
+
+def test_a_dome_stands_on_a_straight_base_with_straight_sides():
+    shape = shapely.Polygon(Dome(dome=0.4).outline(2000))
+    side = shapely.box(-0.25, 0.0, 0.25, 0.6)
+    assert shape.covers(side)
+    rest = shape.difference(side)
+    assert rest.area == pytest.approx(0.5 * np.pi * 0.25 * 0.4, rel=1e-4)
+    assert shapely.Polygon(Dome(dome=1.0).outline(400)).is_valid
 
 
 def test_the_length_of_a_bilobed_blade_is_the_height_of_its_lobes():

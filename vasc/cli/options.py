@@ -11,6 +11,11 @@ AsJson = Annotated[bool, typer.Option("--json", help="Write JSON, for scripts.")
 
 Step = Annotated[int, typer.Option("--step", min=-1, help="A recorded step; -1 is the last one.")]
 
+Steps = Annotated[
+    list[int] | None,
+    typer.Option("--step", min=-1, help="A recorded step, -1 for the last one; may be repeated."),
+]
+
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Write nothing but errors.")]
 
 Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.")]

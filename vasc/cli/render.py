@@ -1,29 +1,46 @@
 """``vasc render``: a picture of a recorded leaf."""
 
+from typing import Annotated
+
 import typer
 
-from vasc.cli.options import AsJson, Color, Force, Output, RunFile, ScaleBar, Step, WithSources
+from vasc.cli.options import AsJson, Color, Force, Output, RunFile, ScaleBar, Steps, WithSources
 
-EXAMPLES = ("vasc render poplar-leaf.h5 -o young.pdf --step 500 --color age",)
+EXAMPLES = (
+    "vasc render poplar-leaf.h5 -o young.pdf --step 500 --color age",
+    "vasc render poplar-leaf.h5 -o growth.png --growth --step 0 --step 200 --step 500",
+)
 
 
 def render(
     path: RunFile,
     output: Output,
-    step: Step = -1,
+    step: Steps = None,
     color: Color = "width",
     sources: WithSources = False,
     scale_bar: ScaleBar = True,
+    growth: Annotated[
+        bool, typer.Option("--growth", help="Draw how tissue grows between steps, not the veins.")
+    ] = False,
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
-    """Draw a run at its last step or another, as png, svg or pdf."""
+    """Draw a run at its last step or others, as png, svg or pdf."""
     from vasc import render as drawing
     from vasc.cli.printing import print_json
     from vasc.cli.run import check_picture
 
     check_picture(output, force=force)
-    file = drawing.render(path, output, step, color=color, sources=sources, scale_bar=scale_bar)
+    if growth:
+        from vasc.cli.growing import growth_figure
+        from vasc.render.files import PICTURE_SUFFIXES, checked_output
+
+        file = checked_output(output, PICTURE_SUFFIXES)
+        drawing.save(growth_figure(path, step or []), file)
+    else:
+        file = drawing.render(
+            path, output, steps=step or [-1], color=color, sources=sources, scale_bar=scale_bar
+        )
     if as_json:
         print_json({"files": [str(file)]})
     else:

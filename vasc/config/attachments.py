@@ -41,6 +41,9 @@ def referenced_files(tables: Any, path: KeyPath = ()) -> dict[KeyPath, str]:
                 found[(*path, key)] = value
             else:
                 found.update(referenced_files(value, (*path, key)))
+    elif isinstance(tables, list):
+        for row, value in enumerate(tables):
+            found.update(referenced_files(value, (*path, row)))
     return found
 
 
@@ -110,6 +113,8 @@ def unpacked(
 
 def _renamed(tables: Any, names: dict[str, str]) -> Any:
     """Give the tables with the names of files replaced."""
+    if isinstance(tables, list):
+        return [_renamed(value, names) for value in tables]
     if not isinstance(tables, dict):
         return tables
     return {

@@ -178,6 +178,25 @@ class Bilobed(ShapeParameters):
         ]
 
 
+class Dome(ShapeParameters):
+    """A young blade: straight base and sides under a domed tip (Runions 2008, chapter 5)."""
+
+    half_width: ClassVar[float] = 0.25
+    shape: Literal["dome"] = "dome"
+    dome: float = quantity(
+        "Height of the domed tip.", unit="blade length", default=0.3, gt=0.0, le=1.0
+    )
+
+    def half(self) -> list[Points]:
+        """Give base, side and a quarter of an ellipse."""
+        w, top = self.half_width, 1.0 - self.dome
+        angles = np.linspace(0.0, 0.5 * np.pi, 257)
+        arc = np.stack([w * np.cos(angles), top + self.dome * np.sin(angles)], axis=1)
+        # with a point in the middle, so that more are spread over it
+        side = [np.array([(w, 0.0), (w, 0.5 * top), (w, top)])] if top > 0.0 else []
+        return [line((0.0, 0.0), (w, 0.0)), *side, arc]
+
+
 SHAPES: dict[str, type[ShapeParameters]] = {
     "elliptic": Elliptic,
     "orbicular": Orbicular,
@@ -190,6 +209,7 @@ SHAPES: dict[str, type[ShapeParameters]] = {
     "reniform": Reniform,
     "fan": Fan,
     "bilobed": Bilobed,
+    "dome": Dome,
 }
 """The shapes by name."""
 
@@ -204,7 +224,8 @@ Shape = Annotated[
     | Lobed
     | Reniform
     | Fan
-    | Bilobed,
+    | Bilobed
+    | Dome,
     Field(discriminator="shape"),
 ]
 ShapeName = Literal[
@@ -219,4 +240,5 @@ ShapeName = Literal[
     "reniform",
     "fan",
     "bilobed",
+    "dome",
 ]

@@ -9,6 +9,7 @@ from vasc.growth.base import (
 )
 from vasc.growth.isogonic import IsogonicGrowth, IsogonicParameters
 from vasc.growth.keyframed import KeyframedGrowth, KeyframedParameters
+from vasc.growth.local_to_global import LocalToGlobalGrowth, LocalToGlobalParameters
 from vasc.growth.marginal import MarginalGrowth, MarginalParameters
 from vasc.growth.none import NoGrowth, NoGrowthParameters
 from vasc.parameters import Parameters
@@ -18,6 +19,7 @@ GROWTHS: dict[str, type[Parameters]] = {
     "marginal": MarginalParameters,
     "isogonic": IsogonicParameters,
     "keyframed": KeyframedParameters,
+    "local_to_global": LocalToGlobalParameters,
 }
 """Parameters of our growths by kind; configs know installed ones, too."""
 
@@ -31,6 +33,8 @@ __all__ = [
     "KeyframedGrowth",
     "KeyframedParameters",
     "LinearGrowthParameters",
+    "LocalToGlobalGrowth",
+    "LocalToGlobalParameters",
     "MarginalGrowth",
     "MarginalParameters",
     "NoGrowth",

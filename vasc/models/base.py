@@ -13,6 +13,7 @@ from vasc.growth import (
     IsogonicParameters,
     KeyframedParameters,
     LinearGrowthParameters,
+    LocalToGlobalParameters,
     MarginalParameters,
     NoGrowthParameters,
 )
@@ -47,7 +48,11 @@ class Model(ABC):
 
 
 AnyGrowth = Annotated[
-    NoGrowthParameters | MarginalParameters | IsogonicParameters | KeyframedParameters,
+    NoGrowthParameters
+    | MarginalParameters
+    | IsogonicParameters
+    | KeyframedParameters
+    | LocalToGlobalParameters,
     Field(discriminator="kind"),
 ]
 AnyPlacement = Annotated[
@@ -187,13 +192,19 @@ class LeafVenation(Parameters):
             )
         return self
 
+    def grown(self, folder: Path) -> Growth:
+        """Give the growing blade; files are looked for in ``folder``."""
+        if isinstance(self.growth, KeyframedParameters):
+            return self.growth.growth()
+        assert self.domain is not None, "checked"
+        blade = self.domain.blade(folder)
+        if isinstance(self.growth, LocalToGlobalParameters):
+            return self.growth.growth(blade, folder)
+        return self.growth.growth(blade)
+
     def parts(self, folder: Path) -> dict[str, Any]:
         """Give the parts of the sentence that do not depend on the kind of venation."""
-        if isinstance(self.growth, KeyframedParameters):
-            growth: Growth = self.growth.growth()
-        else:
-            assert self.domain is not None, "checked"
-            growth = self.growth.growth(self.domain.blade(folder))
+        growth = self.grown(folder)
         kill, length = self.arrival.kill_distance, self.extension.segment_length
         placement = self.placement
         birth_distance = float("inf")

@@ -2,6 +2,7 @@
 
 from vasc.render.animation import FILM_SUFFIXES, Film, animate
 from vasc.render.files import PICTURE_SUFFIXES, render, save
+from vasc.render.growth import GrownGrid, GrowthMap, draw_growth
 from vasc.render.leaf import draw_leaf
 from vasc.render.sequence import draw_sequence
 from vasc.render.styles import COLOR_CHOICES, LeafStyle
@@ -11,8 +12,11 @@ __all__ = [
     "FILM_SUFFIXES",
     "PICTURE_SUFFIXES",
     "Film",
+    "GrownGrid",
+    "GrowthMap",
     "LeafStyle",
     "animate",
+    "draw_growth",
     "draw_leaf",
     "draw_sequence",
     "render",
