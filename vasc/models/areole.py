@@ -23,6 +23,14 @@ class StrandParameters(Parameters):
         default=1.0,
         gt=0.0,
     )
+    lean: float = quantity(
+        "A vein to a source within the blade leaves another one that share of its length nearer"
+        " to the base than the closest node, so that it branches at an acute angle; 0, as in the"
+        " thesis: at right angles.",
+        default=0.0,
+        ge=0.0,
+        le=2.0,
+    )
     blind_gap: float = quantity(
         "What remains between a blind strand and the vein it does not join.",
         unit="D",
@@ -51,7 +59,9 @@ class AreoleVenation(LeafVenation):
         )
         parts["extension"] = extension
         return Colonization(
-            perception=CanalPerception(canals, TIE_SHARE * parts["placement"].spacing),
+            perception=CanalPerception(
+                canals, TIE_SHARE * parts["placement"].spacing, self.extension.lean
+            ),
             arrival=DrainingArrival(self.arrival.kill_distance, canals, extension),
             **parts,
         )

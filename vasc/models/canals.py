@@ -11,6 +11,7 @@ from vasc.events import EventKind
 from vasc.models.perception import Cut, Perception
 from vasc.network import Origin
 from vasc.placement import Moment
+from vasc.sources import Cause
 from vasc.states import CanalState, Kind, check_transitions
 from vasc.vasculature import Vasculature
 
@@ -78,11 +79,15 @@ class CanalPerception(Perception[Canals]):
         Where they are kept.
     tie : float
         Neighbours farther than the closest by at most that are as close, D.
+    lean : float
+        A vein to a source within the blade leaves another one that share of its length
+        nearer to the base.
     """
 
-    def __init__(self, canals: Canals, tie: float) -> None:
+    def __init__(self, canals: Canals, tie: float, lean: float) -> None:
         self.canals = canals
         self.tie = tie
+        self.lean = lean
         self._n_sources = 0
 
     def look(self, veins: Vasculature, n_nodes: int) -> None:
@@ -134,8 +139,12 @@ class CanalPerception(Perception[Canals]):
         self.canals.by_source[source] = canals
         for canal in canals:
             self.canals.change(veins, moment.step, canal, CanalState.PRE_PATTERN)
-        closest = canals[self._closest(veins, nodes, distances)]
-        closest.tip = closest.node
+        row = self._closest(veins, nodes, distances)
+        closest = canals[row]
+        # leaning laterals part from the older loops: sources on the margin then lose them
+        is_marginal = veins.sources.arrays["cause"][source] == Cause.MARGIN
+        lean = 0.0 if is_marginal else self.lean
+        closest.tip = toward_base(veins, closest.node, lean * float(distances[row]))
         self.canals.change(veins, moment.step, closest, CanalState.INBOUND)
 
     def _closest(self, veins: Vasculature, nodes: Ids, distances: np.ndarray) -> int:
@@ -205,3 +214,28 @@ def relative_neighbors(veins: Vasculature, place: np.ndarray) -> tuple[Ids, np.n
     order = np.lexsort(keys)
     rows = order[kernels.canals.ordered_neighbors(places[order], distances[order])]
     return nodes[rows], distances[rows]
+
+
+def toward_base(veins: Vasculature, node: int, length: float) -> int:
+    """Give the node that lies a length from another one along its vein, nearer to a seed.
+
+    The walk ends where veins branch.
+    """
+    if length <= 0.0:
+        return node
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import dijkstra
+
+    n_nodes = veins.nodes.n_rows
+    ends = veins.segments.view("nodes")[~veins.refined[: veins.segments.n_rows]]
+    places = veins.places("nodes")
+    lengths = np.sqrt(((places[ends[:, 1]] - places[ends[:, 0]]) ** 2).sum(axis=1))
+    graph = coo_array((lengths, (ends[:, 0], ends[:, 1])), shape=(n_nodes, n_nodes)).tocsr()
+    seeds = np.flatnonzero(veins.nodes.view("origin") == Origin.SEED)
+    to_base = dijkstra(graph, directed=False, indices=seeds, min_only=True)
+    degrees = np.bincount(ends.ravel(), minlength=n_nodes)
+    start = to_base[node]
+    while degrees[node] == 2 and start - to_base[node] < length:
+        around = ends[(ends == node).any(axis=1)].ravel()
+        node = int(around[np.argmin(to_base[around])])
+    return node

@@ -56,11 +56,17 @@ class EmptyCirclePlacement(Placement):
         A source appears while the largest circle is larger than that (b_s), in D.
     last_step : int or None
         Last step with new sources; None: as long as the blade grows.
+    wander : float
+        A source within the blade is displaced along each axis, at random, by at most that
+        share of the birth distance.
     """
 
-    def __init__(self, growth: Growth, birth_distance: float, last_step: int | None) -> None:
+    def __init__(
+        self, growth: Growth, birth_distance: float, last_step: int | None, wander: float
+    ) -> None:
         self.growth = growth
         self.birth_distance = birth_distance
+        self.wander = wander
         self.last_step = max(1, growth.last_step) if last_step is None else last_step
 
     @property
@@ -78,11 +84,9 @@ class EmptyCirclePlacement(Placement):
             return
         room = Room(veins, moment, self.birth_distance / moment.scale)
         while (found := room.largest_circle()) is not None:
-            material, place = found
+            material, place = self._displaced(*found, moment, rng)
             position = place * moment.scale
-            limit = MARGIN_SHARE * self.birth_distance
-            is_marginal = moment.growth.domain(moment.step).margin_distance(position) < limit
-            cause = Cause.MARGIN if is_marginal[0] else Cause.SPACE
+            cause = Cause.MARGIN if self._is_marginal(place, moment) else Cause.SPACE
             veins.reserve_sources(1)
             row = veins.sources.n_rows
             veins.places("sources")[row] = place
@@ -90,6 +94,25 @@ class EmptyCirclePlacement(Placement):
             kernels.hash_grid.insert(veins.source_grid, veins.places("sources"), row, row + 1)
             veins.add_sources(moment.step, material, position, cause)
             room.fill(place)
+
+    def _displaced(
+        self, material: Points, place: Points, moment: Moment, rng: np.random.Generator
+    ) -> tuple[Points, Points]:
+        """Give the centre of a circle, displaced if it is to be and stays in the blade."""
+        if self.wander == 0.0 or self._is_marginal(place, moment):
+            return material, place
+        shift = (2.0 * rng.random((1, 2)) - 1.0) * (self.wander * self.birth_distance)
+        moved = place + shift / moment.scale
+        is_inside = kernels.polygon.are_inside(moment.outline, moved, moment.outline_size)
+        if not is_inside[0]:
+            return material, place
+        material, positions = moment.embed(moved)
+        return material, positions / moment.scale
+
+    def _is_marginal(self, place: Points, moment: Moment) -> bool:
+        """Tell whether a place is on the margin, or as good as."""
+        distance = moment.growth.domain(moment.step).margin_distance(place * moment.scale)
+        return bool(distance[0] < MARGIN_SHARE * self.birth_distance)
 
 
 class Room:
@@ -335,6 +358,13 @@ class EmptyCircleParameters(Parameters):
         unit="D",
         gt=0.0,
     )
+    wander: float = quantity(
+        "A source within the blade is displaced along each axis, at random, by at most that"
+        " share of the birth distance; 0, as in the thesis, places all in the centre.",
+        default=0.0,
+        ge=0.0,
+        le=0.5,
+    )
     until: int | None = quantity(
         "Last step with new sources; by default that of growth.", unit="steps", default=None, ge=1
     )
@@ -353,4 +383,4 @@ class EmptyCircleParameters(Parameters):
                 f"placement.kind = 'empty_circles': the outline has {n_rings} rings; the margin"
                 " must be one"
             )
-        return EmptyCirclePlacement(growth, self.birth_distance, self.until)
+        return EmptyCirclePlacement(growth, self.birth_distance, self.until, self.wander)
