@@ -44,6 +44,16 @@ GROWTHS = st.one_of(
             "length_per_step": LENGTHS,
         }
     ),
+    table(
+        {
+            "kind": st.just("local_to_global"),
+            "heights": st.just([0.0, 0.4, 1.0]),
+            "g_x": st.lists(st.floats(-0.9, 9.0), min_size=3, max_size=3),
+            "g_y": st.lists(st.floats(-0.9, 9.0), min_size=3, max_size=3),
+            "end": LENGTHS,
+        },
+        steps_per_unit=st.integers(1, 1000),
+    ),
 )
 PLACEMENTS = st.one_of(
     table(
