@@ -113,8 +113,8 @@ def test_a_plausible_size_is_taken(tables):
 def test_every_bundled_config_could_be_half_as_long_again():
     for one in bundled_configs():
         growth = load(one.name).tables["growth"]
-        if "domain" not in load(one.name).tables:
-            continue
+        if growth["kind"] in ("keyframed", "local_to_global"):
+            continue  # they tell no final length
         key = "domain.length" if growth["kind"] == "none" else "growth.final_length"
         length = load(one.name).tables["domain"]["length"]
         final = 1.5 * growth.get("final_length", length)

@@ -248,7 +248,7 @@ def frames(tmp_path):
         written(tmp_path, f"age{row}.csv", ring)
     return {
         "outlines": [
-            {"t": time, "file": f"age{row}.csv", "height": length}
+            {"time": time, "file": f"age{row}.csv", "height": length}
             for row, (time, length) in enumerate(zip(TIMES, LENGTHS.tolist(), strict=True))
         ],
         "landmarks": [
@@ -284,7 +284,7 @@ def test_files_that_hold_no_leaf_are_named(frames, tmp_path):
 @pytest.mark.parametrize(
     ("spoil", "problem"),
     [
-        (lambda frames: frames["outlines"].reverse(), r"outlines\[1\]\.t is 160; times must"),
+        (lambda frames: frames["outlines"].reverse(), r"outlines\[1\]\.time is 160; times must"),
         (lambda frames: frames["landmarks"][2]["positions"].pop(), r"landmarks\[2\]\.positions"),
         (lambda frames: frames["landmarks"][0]["positions"][1].pop(), r"positions\[1\] holds 1"),
         (

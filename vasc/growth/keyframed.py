@@ -1,18 +1,14 @@
 """Key-framed growth: B-spline surfaces interpolated in time (Runions 2008, section 5.2.1)."""
 
 from collections.abc import Callable
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import model_validator
 
 from vasc import kernels
 from vasc.arrays import Floats, Points
-from vasc.domain import Blade
 from vasc.errors import ConfigError
 from vasc.growth.base import MARGIN_SPACING, MOST_STEPS, Deformation
-from vasc.parameters import Parameters, quantity
 
 N_COLUMNS = 5
 """Control points across the blade; with five, a row bends as a parabola does."""
@@ -195,73 +191,3 @@ def least_determinants(
         np.take_along_axis(np.array(values), which, axis=0)[0],
         np.take_along_axis(np.array(shares), which, axis=0)[0],
     )
-
-
-class KeyframeParameters(Parameters):
-    """One surface: control rows from the base to the tip."""
-
-    time: float = quantity("When the blade has this shape.", unit="time", ge=0.0)
-    rows: list[tuple[float, float, float]] = quantity(
-        "Control rows, base to tip: height on the midline, half-width, and rise of the margin"
-        " above the midline.",
-        unit="D",
-        min_length=4,
-    )
-
-    @model_validator(mode="after")
-    def _check(self) -> "KeyframeParameters":
-        """Refuse rows that do not rise or have no width."""
-        for number, (row, following) in enumerate(zip(self.rows, self.rows[1:], strict=False)):
-            if following[0] <= row[0]:
-                raise ValueError(
-                    f"the key-frame of time {self.time:g}: row {number + 1} has the height"
-                    f" {following[0]:g}; it must be above that of row {number} ({row[0]:g})"
-                )
-        for number, (_, width, _) in enumerate(self.rows):
-            if width <= 0.0:
-                raise ValueError(
-                    f"the key-frame of time {self.time:g}: row {number} has the half-width"
-                    f" {width:g}; it must be greater than 0"
-                )
-        return self
-
-
-class KeyframedParameters(Parameters):
-    """Growth between surfaces that are given for some times."""
-
-    kind: Literal["keyframed"] = "keyframed"
-    frames: list[KeyframeParameters] = quantity(
-        "The key-frames, in the order of time; the first is at time 0.", min_length=1
-    )
-    step_duration: float = quantity("Time that passes in one step.", unit="time", default=1.0, gt=0)
-
-    @model_validator(mode="after")
-    def _check(self) -> "KeyframedParameters":
-        """Refuse times out of order, and key-frames that are not of one size."""
-        times = [frame.time for frame in self.frames]
-        if times[0] != 0.0:
-            raise ValueError(f"the first key-frame is of time {times[0]:g}; it must be 0")
-        for before, after in zip(self.frames, self.frames[1:], strict=False):
-            if after.time <= before.time:
-                raise ValueError(
-                    f"a key-frame of time {after.time:g} follows one of time {before.time:g};"
-                    " times must ascend"
-                )
-            if len(after.rows) != len(before.rows):
-                raise ValueError(
-                    f"the key-frame of time {after.time:g} has {len(after.rows)} rows; all must"
-                    f" have as many as the first ({len(self.frames[0].rows)})"
-                )
-        return self
-
-    def growth(self, blade: Blade | None = None) -> KeyframedGrowth:
-        """Give the growth; the key-frames tell the blade.
-
-        Raises
-        ------
-        ConfigError
-            If the surface folds, or growth would take too many steps.
-        """
-        times = np.array([frame.time for frame in self.frames])
-        frames = np.array([np.transpose(frame.rows) for frame in self.frames], dtype=np.float64)
-        return KeyframedGrowth(times, np.ascontiguousarray(frames), self.step_duration)

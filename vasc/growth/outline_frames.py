@@ -17,7 +17,7 @@ from vasc.parameters import Parameters, quantity
 class OutlineParameters(Parameters):
     """The outline of a leaf at one age."""
 
-    t: float = quantity("Time of this age.", unit="steps", ge=0.0)
+    time: float = quantity("Time of this age; that of the first is 0.", unit="time", ge=0.0)
     file: str = quantity("A file with the outline, as for the domain.")
     height: float = quantity("Length of the leaf at this age.", unit="D", gt=0.0)
 
@@ -62,12 +62,14 @@ class OutlineFrames(Parameters):
 
     @model_validator(mode="after")
     def _check(self) -> "OutlineFrames":
-        """Require ascending times, and landmarks of as many ages."""
+        """Require ascending times from 0 on, and landmarks of as many ages."""
+        if self.outlines[0].time != 0.0:
+            raise ValueError(f"outlines[0].time is {self.outlines[0].time:g}; it must be 0")
         for row, (before, after) in enumerate(pairwise(self.outlines), 1):
-            if after.t <= before.t:
+            if after.time <= before.time:
                 raise ValueError(
-                    f"outlines[{row}].t is {after.t:g}; times must ascend, and the one before is"
-                    f" {before.t:g}"
+                    f"outlines[{row}].time is {after.time:g}; times must ascend, and the one"
+                    f" before is {before.time:g}"
                 )
         for row, mark in enumerate(self.landmarks):
             if len(mark.positions) != len(self.outlines):
@@ -87,7 +89,7 @@ class OutlineFrames(Parameters):
         """
         return fit_keyframes(
             [self._ring(row, folder) for row in range(len(self.outlines))],
-            [outline.t for outline in self.outlines],
+            [outline.time for outline in self.outlines],
             [self._landmark(mark) for mark in self.landmarks],
             n_rows=self.n_rows,
             tolerance=self.tolerance,

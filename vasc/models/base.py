@@ -195,7 +195,7 @@ class LeafVenation(Parameters):
     def grown(self, folder: Path) -> Growth:
         """Give the growing blade; files are looked for in ``folder``."""
         if isinstance(self.growth, KeyframedParameters):
-            return self.growth.growth()
+            return self.growth.growth(folder)
         assert self.domain is not None, "checked"
         blade = self.domain.blade(folder)
         if isinstance(self.growth, LocalToGlobalParameters):

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from vasc import kernels
-from vasc.growth import Growth
+from vasc.growth import Growth, Similarity
 from vasc.parameters import Parameters, quantity
 from vasc.placement.base import Moment, Placement
 from vasc.placement.largest_blade import LargestBladePlacement
@@ -112,9 +112,10 @@ class DartPlacement(Placement):
         # The nodes of earlier epochs come first and in order of birth, so that the
         # list of cells depends on nothing but the nodes: a resumed run rebuilds it.
         n_nodes = veins.nodes.n_rows
-        kernels.darts.cover(
-            self.cells, veins.places("nodes"), self._n_covering, n_nodes, self._radius
-        )
+        nodes = veins.places("nodes")[self._n_covering : n_nodes]
+        if veins.has_cuts:
+            nodes = nodes[~veins.is_retired[self._n_covering : n_nodes]]
+        kernels.darts.cover(self.cells, nodes, 0, len(nodes), self._radius)
         self._n_covering = n_nodes
 
     def _begin_epoch(self, step: int) -> None:
@@ -130,8 +131,11 @@ class DartPlacement(Placement):
 def epoch_of(growth: Growth, step: int) -> tuple[int, int]:
     """Give the first step of a step's epoch and the first of the next one.
 
-    Epochs follow from the growth alone, never from the course of a run.
+    Epochs follow from the growth alone, never from the course of a run. Where places
+    change in every step, each step is one.
     """
+    if not isinstance(growth, Similarity):
+        return step, step + 1
     start = 1
     for current in range(2, growth.last_step + 2):
         if growth.outline_scale(current) > EPOCH_RATIO * growth.outline_scale(start):
@@ -150,19 +154,18 @@ def blade_cells(growth: Growth, start: int, last: int, side: float) -> "DartCell
     last = min(last, max(growth.last_step, start))
     first_factor = growth.outline_scale(start) / growth.scale(start)
     last_factor = growth.outline_scale(last) / growth.scale(last)
-    box = np.array(growth.blade.bounds)
+    blade = growth.blade if isinstance(growth, Similarity) else growth.domain(start)
+    box = np.array(blade.bounds)
     box = np.array([*np.minimum(box[:2], 0.0), *np.maximum(box[2:], 0.0)]) * last_factor
     low = box[:2] - side
     columns, rows = (np.ceil((box[2:] - low) / side).astype(int) + 1).tolist()
     reach = float(np.abs(box).max()) / last_factor
     n_sizes = 1
-    if not growth.blade.is_star_shaped:
+    if not blade.is_star_shaped:
         n_sizes += int(np.ceil(reach * (last_factor - first_factor) / (0.5 * side)))
     touched = np.zeros(columns * rows, dtype=np.uint8)
     for factor in np.linspace(last_factor, first_factor, n_sizes):
-        touched |= kernels.polygon.raster(
-            *growth.blade.flat, factor, low[0], low[1], side, columns, rows
-        )
+        touched |= kernels.polygon.raster(*blade.flat, factor, low[0], low[1], side, columns, rows)
     return kernels.darts.dart_cells(touched, (low[0], low[1]), side, columns)
 
 
