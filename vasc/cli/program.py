@@ -18,13 +18,27 @@ from vasc.cli import (
     schema,
     show,
     stats,
+    validate,
     verify,
 )
 from vasc.cli.failures import end_of, interruptible, without_lines_of_code
 from vasc.cli.start import rare_collections
 
 # the order of a first day with vasc
-VERBS = (configs, run, resume, show, events, lineage, stats, render, animate, verify, schema)
+VERBS = (
+    configs,
+    run,
+    resume,
+    show,
+    events,
+    lineage,
+    stats,
+    render,
+    animate,
+    verify,
+    validate,
+    schema,
+)
 
 # verbs with verbs of their own: module, names of its functions, and their examples
 GROUPS = ((check, {"sequence": check.SEQUENCE_EXAMPLES}),)
