@@ -17,7 +17,11 @@ __all__ = ["Leaf", "Rules", "excludes", "grow", "nearest", "relative_neighbors",
 
 @dataclass
 class Rules:
-    """What a run is made of; ``scale`` gives the size of a material unit at a step."""
+    """What a run is made of; ``scale`` gives the size of a material unit at a step.
+
+    Where a blade is deformed, places are positions: ``carry`` moves them at the
+    beginning of a step, and ``embed`` tells where a new node is.
+    """
 
     is_closed: bool
     kill: float
@@ -29,6 +33,8 @@ class Rules:
     last_growth: int = 0
     scale: object = staticmethod(lambda step: 1.0)
     neighbors: object = staticmethod(relative_neighbors)
+    carry: object = staticmethod(lambda leaf: None)
+    embed: object = staticmethod(lambda leaf, place, parent: place)
 
     def perceive(self, leaf):
         """The nodes that each live source attracts."""
@@ -166,11 +172,11 @@ def extend(leaf, rules, attracted, scale):
             x, y = leaf.nodes[v]
             children.append(((x + length * way[0], y + length * way[1]), v, closest))
     is_branch = [leaf.has_child(v) for _, v, _ in children]
-    for child, branches in zip(children, is_branch, strict=True):
-        node = leaf.add_node(*child)
-        leaf.segments.append((child[1], node))
+    for (place, v, closest), branches in zip(children, is_branch, strict=True):
+        node = leaf.add_node(rules.embed(leaf, place, v), v, closest)
+        leaf.segments.append((v, node))
         if branches:
-            leaf.initiated.append((node, child[1]))
+            leaf.initiated.append((node, v))
     return len(children)
 
 
@@ -234,6 +240,7 @@ def grow(seeds, given, rules, n_steps):
     while leaf.step < n_steps and not leaf.reason:
         leaf.step += 1
         scale = rules.scale(leaf.step)
+        rules.carry(leaf)
         halve(leaf, rules, scale)
         for birth, place in given:
             if birth == leaf.step:
