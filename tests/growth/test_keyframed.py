@@ -238,7 +238,7 @@ def changed(row, values):
         ({0.0: SOUND, 3.0: changed(3, (12.0, 0.0, 0.0))}, "time 3: row 3 has the half-width 0"),
         ({0.0: changed(0, (0.0, -2.0, 0.0))}, "row 0 has the half-width -2"),
         ({0.0: changed(0, (0.0, float("nan"), 0.0))}, "finite"),
-        ({}, "at least 1 item"),
+        ({}, "give either 'frames' or 'outlines'"),
     ],
 )
 def test_key_frames_that_make_no_sense_are_refused_with_the_reason(frames, message):

@@ -39,14 +39,14 @@ def growth_figure(path: Path, steps: Sequence[int]) -> "Figure":
     """
     from vasc.config import experiment_from_record
     from vasc.errors import ConfigError
-    from vasc.models.base import Venation
+    from vasc.models.base import LeafVenation
     from vasc.timeline import Timeline
 
     with (
         Timeline(path) as timeline,
         experiment_from_record(timeline.config, name=str(path)) as experiment,
     ):
-        if not isinstance(experiment.parameters, Venation):
+        if not isinstance(experiment.parameters, LeafVenation):
             raise ConfigError(f"{path}: kind = {experiment.kind!r}: has no blade that grows")
         growth = experiment.parameters.grown(experiment.folder)
         return _drawn(growth, _chosen(timeline, growth, steps), timeline)
