@@ -90,7 +90,7 @@ def face_walks(drawing: Drawing) -> FaceWalks:
     starts = np.concatenate([drawing.segments[:, 0], drawing.segments[:, 1]])
     ends = np.concatenate([drawing.segments[:, 1], drawing.segments[:, 0]])
     vectors = points[ends] - points[starts]
-    around = np.lexsort((np.arctan2(vectors[:, 1], vectors[:, 0]), starts))
+    around = np.lexsort((turns(vectors), starts))
     followers = _followers(starts, around)
     faces, components = _labels(followers, drawing)
     n_faces = int(faces.max()) + 1
@@ -102,6 +102,22 @@ def face_walks(drawing: Drawing) -> FaceWalks:
     is_outside = np.zeros(n_faces, dtype=bool)
     is_outside[faces[_leftmost(points, starts, components, around)]] = True
     return FaceWalks(starts, ends, faces, of_faces, twice / 2.0, is_outside, followers)
+
+
+def turns(vectors: Points) -> Floats:
+    """Give numbers in the order of the vectors' angles, from -2 (left, from below) to 2.
+
+    They need no arctangent, whose last bit depends on the processor.
+
+    Examples
+    --------
+    >>> turns(np.array([[1.0, 0.0], [0.0, 2.0], [-3.0, 0.0], [0.0, -1.0]])).tolist()
+    [0.0, 1.0, 2.0, -1.0]
+    """
+    x, y = vectors[:, 0], vectors[:, 1]
+    size = np.abs(x) + np.abs(y)
+    share = np.divide(y, size, out=np.zeros_like(size), where=size > 0.0)
+    return np.where(x >= 0.0, share, np.where(y >= 0.0, 2.0 - share, -2.0 - share))
 
 
 def _followers(starts: Ids, around: NDArray[np.intp]) -> NDArray[np.intp]:
