@@ -125,6 +125,23 @@ def test_what_is_recorded_of_a_cut():
     ]
 
 
+@pytest.mark.parametrize("order", [(0, 1, 2), (2, 1, 0), (1, 0, 2), (1, 2, 0)])
+def test_proximal_nodes_stay_first_in_whatever_order_segments_were_made(order):
+    path = [(0, 1), (1, 2), (2, 3)]
+    veins = vasculature([(0, 0), (4, 0), (4, 6), (9, 9)], [path[k] for k in order])
+    cuts = refined(veins)
+    assert [cut.node for cut in cuts] == [1, 2]
+    segments = live_segments(veins)
+    following = dict(segments)
+    assert len(following) == len(segments) == 5
+    node, met = 0, [0]
+    while node in following:
+        node = following[node]
+        met.append(node)
+    assert len(met) == 6
+    assert met[-1] == 3
+
+
 def test_half_weights_take_the_middles_of_both_segments():
     veins = vasculature([(0, 0), (4, 0), (4, 6)], [(0, 1), (1, 2)])
     refined(veins, alpha=0.5)

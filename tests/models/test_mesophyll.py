@@ -170,6 +170,19 @@ def test_veins_are_the_same_before_the_event_and_fewer_loops_close_the_earlier_i
         np.testing.assert_array_equal(first, other)
 
 
+def test_strands_under_way_obey_the_event_in_its_own_step():
+    whole = last_of(SMALL, 6.0, 120, {"kind": "never"})
+    joined = whole.rows("events", "step")[whole.rows("events", "kind") == EventKind.VEIN_JOINED]
+    for step in np.unique(joined).tolist()[:4]:
+        last = last_of(SMALL, 6.0, step, {"kind": "time", "time": step})
+        kinds, steps = last.rows("events", "kind"), last.rows("events", "step")
+        assert steps[kinds == EventKind.MESOPHYLL_EVENT].tolist() == [step]
+        assert (steps[kinds == EventKind.VEIN_JOINED] < step).all()
+        # they go on for the part of a segment that the gap leaves, and end
+        n_ended = np.count_nonzero(steps[kinds == EventKind.VEIN_ENDED_BLINDLY] == step)
+        assert n_ended == np.count_nonzero(joined == step)
+
+
 @pytest.mark.parametrize("gap", [0.3, 0.9, 2.5])
 def test_blind_veins_end_at_the_gap(gap):
     tables = leaf(
