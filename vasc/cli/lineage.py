@@ -1,4 +1,4 @@
-"""``vasc lineage``: where a vein came from, and what became of a source."""
+"""``vasc lineage``: where a vein came from, and what became of a source or an areole."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -16,6 +16,7 @@ LONGEST_LIST = 12
 EXAMPLES = (
     "vasc lineage poplar-leaf.h5 --node 1000",
     "vasc lineage poplar-leaf.h5 --source 10 --json",
+    "vasc lineage arabidopsis-first-leaf.h5 --areole 0",
 )
 
 
@@ -23,19 +24,23 @@ def lineage(
     path: RunFile,
     node: Annotated[int | None, typer.Option("--node", min=0, help="A vein node.")] = None,
     source: Annotated[int | None, typer.Option("--source", min=0, help="An auxin source.")] = None,
+    areole: Annotated[int | None, typer.Option("--areole", min=0, help="An areole.")] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Tell where a vein node came from, or what became of a source."""
+    """Tell where a vein node came from, or what became of a source or an areole."""
     from vasc.cli.printing import print_json, print_pairs
     from vasc.timeline import Timeline
 
     with Timeline(path) as timeline:
-        if node is not None and source is None:
-            found = node_lineage(timeline, node)
-        elif source is not None and node is None:
-            found = source_fate(timeline, source)
-        else:
-            raise typer.BadParameter("give either --node ID or --source ID")
+        asked = [
+            (tell, row)
+            for tell, row in ((node_lineage, node), (source_fate, source), (areole_fate, areole))
+            if row is not None
+        ]
+        if len(asked) != 1:
+            raise typer.BadParameter("give one of --node ID, --source ID and --areole ID")
+        tell, row = asked[0]
+        found = tell(timeline, row)
     if as_json:
         print_json(found)
     else:
@@ -74,6 +79,27 @@ def source_fate(timeline: "Timeline", source: int) -> dict[str, Any]:
         "awaited_nodes": fate.tags.tolist(),
         "joins": fate.joins.tolist(),
         "nodes": fate.nodes.tolist(),
+    }
+
+
+def areole_fate(timeline: "Timeline", areole: int) -> dict[str, Any]:
+    """Give what became of an areole, in JSON values; what did not happen is None."""
+    fate = timeline.lineage.areole(areole)
+    areas = timeline.areole_areas()
+    own = areas["area"][areas["areole"] == areole].tolist()
+    return {
+        "areole": areole,
+        "birth": fate.birth,
+        "segment": fate.segment,
+        "parent": _known(fate.parent),
+        "ancestors": list(fate.ancestors),
+        "split": _known(fate.split),
+        "children": list(fate.children),
+        "sources": fate.sources.tolist(),
+        "drained": [_known(step) for step in fate.drained.tolist()],
+        "blind_ends": fate.blind_ends.tolist(),
+        "area_at_birth": own[0] if own else None,
+        "area_at_end": own[-1] if own else None,
     }
 
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vasc.arrays import NULL, Ids
 from vasc.errors import TimelineError
 from vasc.events import EventKind
+from vasc.timeline.areole_lineage import AreoleFate, areole_fate
 
 
 class Recorded(Protocol):
@@ -192,6 +193,16 @@ class Lineage:
             columns[name] = np.full(len(births), NULL, dtype=np.int32)
             columns[name][events["subject"][rows]] = events[value][rows]
         return columns
+
+    def areole(self, areole: int) -> AreoleFate:
+        """Tell where an areole came from, and what became of it.
+
+        Raises
+        ------
+        TimelineError
+            If there is no such areole.
+        """
+        return areole_fate(self._timeline, areole)
 
     def life_table(self) -> dict[str, NDArray]:
         """Give the life table of the sources: one row an age, in steps since birth.
