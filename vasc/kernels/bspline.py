@@ -154,16 +154,18 @@ def toward(
     dv = (ry * x_c - rx * y_c) / det
     is_c_blocked = (c >= 1.0 and dc > 0.0) or (c <= 0.0 and dc < 0.0)
     is_v_blocked = (v >= 1.0 and dv > 0.0) or (v <= 0.0 and dv < 0.0)
-    if is_c_blocked:
-        dc = 0.0
-        dv = (rx * x_v + ry * y_v) / (x_v * x_v + y_v * y_v)
-        if (v >= 1.0 and dv > 0.0) or (v <= 0.0 and dv < 0.0):
-            dv = 0.0
-    elif is_v_blocked:
-        dv = 0.0
-        dc = (rx * x_c + ry * y_c) / (x_c * x_c + y_c * y_c)
-        if (c >= 1.0 and dc > 0.0) or (c <= 0.0 and dc < 0.0):
-            dc = 0.0
+    if is_c_blocked or is_v_blocked:
+        along_c = (rx * x_c + ry * y_c) / (x_c * x_c + y_c * y_c)
+        along_v = (rx * x_v + ry * y_v) / (x_v * x_v + y_v * y_v)
+        is_c_open = not ((c >= 1.0 and along_c > 0.0) or (c <= 0.0 and along_c < 0.0))
+        is_v_open = not ((v >= 1.0 and along_v > 0.0) or (v <= 0.0 and along_v < 0.0))
+        # along the edge that blocks; in a corner, along the one that leads nearer
+        if is_v_open and (is_c_blocked or not is_c_open):
+            dc, dv = 0.0, along_v
+        elif is_c_open:
+            dc, dv = along_c, 0.0
+        else:
+            dc, dv = 0.0, 0.0
     return dc, dv, square
 
 

@@ -26,10 +26,11 @@ class MesophyllTime(Parameters):
 
     def step(self, growth: Growth) -> int | None:
         """Give the first step at that time or later."""
-        step = 0
-        while growth.time(step) < self.time:
-            step += 1
-        return max(1, step)
+        step = max(1, int(self.time / growth.time(1)))
+        # a step takes the same time always; the division may be off by rounding
+        while step > 1 and growth.time(step - 1) >= self.time:
+            step -= 1
+        return step if growth.time(step) >= self.time else step + 1
 
 
 class MesophyllLength(Parameters):
@@ -60,7 +61,8 @@ class MesophyllRate(Parameters):
     def step(self, growth: Growth) -> int | None:
         """Give the first step over which the blade grows more slowly; its end, if none does."""
         areas = [growth.domain(0).area]
-        for step in range(1, growth.last_step + 1):
+        # the last step may be filled by growth in part only
+        for step in range(1, growth.last_step):
             areas.append(growth.domain(step).area)
             duration = growth.time(step) - growth.time(step - 1)
             rate = (areas[-1] / areas[-2] - 1.0) / duration

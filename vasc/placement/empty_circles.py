@@ -218,8 +218,8 @@ class Room:
             largest = centres[radii >= radii.max() - TIE]
             centres = np.array([self._canonical(centre) for centre in largest])
             radii = self._clearances(centres)
-        material, places = moment.embed(centres)
-        return Circles(material, places, radii)
+        material, positions = moment.embed(centres)
+        return Circles(material, positions / moment.scale, radii)
 
     def _are_open(self, points: Points) -> NDArray[np.bool_]:
         """Tell which points are in open cells."""
@@ -251,10 +251,8 @@ class Room:
         """Give the places on the margin that have most room among their neighbours."""
         growth, step = self.moment.growth, self.moment.step
         ring = len(self._margin)
-        is_open = self._are_open(self._margin)
-        is_open |= np.roll(is_open, 1) | np.roll(is_open, -1)
-        radii = np.full(ring, -np.inf)
-        radii[is_open] = self._clearances(self._margin[is_open])
+        # all of them: the best place of a gap may be in an open cell that no end of it is in
+        radii = self._clearances(self._margin)
         is_free = np.arange(ring) >= growth.n_base - 1
         is_free[0] = True  # the corners of the base belong to the margin
         radii[~is_free] = -np.inf
