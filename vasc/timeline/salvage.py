@@ -12,6 +12,7 @@ import os
 import shutil
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from vasc.errors import TimelineError
 from vasc.timeline import guard, layout
@@ -55,7 +56,7 @@ def mend(path: Path) -> str | None:
             if problem is not None:
                 _replace(old)
             return problem
-        except TimelineError:
+        except (TimelineError, *guard.TRANSIENT):
             # its committed part cannot be read; whoever opens it next says so
             return None
         finally:
@@ -82,8 +83,8 @@ def _problem(old: OpenFile) -> str | None:
 def _noting(ends: list[int]) -> Callable[..., None]:
     """Give a function that keeps the greatest end of the chunks that it is shown."""
 
-    def note(chunk: object) -> None:
-        ends[0] = max(ends[0], chunk.byte_offset + chunk.size)  # type: ignore[attr-defined]
+    def note(chunk: Any) -> None:
+        ends[0] = max(ends[0], chunk.byte_offset + chunk.size)
 
     return note
 
