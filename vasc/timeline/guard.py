@@ -5,8 +5,11 @@ without asking, and allocates what a file declares. Here only names of the
 layout are opened, component by component, and only plain data are accepted.
 """
 
+import contextlib
 import os
+import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +20,9 @@ from vasc.arrays import Column
 from vasc.errors import TimelineError
 from vasc.timeline.layout import FORMAT, MOTION, VERSION
 from vasc.timeline.storage import reason
+
+if sys.platform != "win32":
+    import fcntl
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 PAUSES = (0.01, 0.02, 0.05, 0.1, 0.2)
@@ -67,6 +73,48 @@ def open_for_writing(path: Path) -> h5py.File:
         return h5py.File(path, "r+", locking="best-effort")
     except OSError as error:
         raise TimelineError(f"{path}: {_explain(error)}") from error
+
+
+@contextlib.contextmanager
+def locked(path: Path) -> Iterator[None]:
+    """Keep other writers away from a file, by the lock that HDF5 takes to write one.
+
+    Nothing is locked if the file cannot be opened or the system has no such locks.
+
+    Raises
+    ------
+    TimelineError
+        If another run is writing the file.
+    """
+    handle = _lock(path)
+    try:
+        yield
+    finally:
+        if handle is not None:
+            os.close(handle)
+
+
+def _lock(path: Path) -> int | None:
+    """Open and lock a file, the one that has its name once it is locked."""
+    if sys.platform == "win32":
+        return None
+    while True:
+        try:
+            handle = os.open(path, os.O_RDONLY)
+        except OSError:
+            return None
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            os.close(handle)
+            raise TimelineError(f"{path}: {_explain(error)}") from error
+        except OSError:
+            # a file system without locks
+            return handle
+        with contextlib.suppress(FileNotFoundError):
+            if os.path.samestat(os.fstat(handle), os.stat(path)):
+                return handle
+        os.close(handle)
 
 
 def _open(path: Path) -> h5py.File:

@@ -4,18 +4,23 @@ Nothing that exists is rewritten, except two marks of one number each. Columns
 carry no filters: a compressed chunk is moved when it grows, and a process that
 is killed then loses the file. Those that do, for being large, are written by
 :mod:`vasc.timeline.compressed`, which moves none.
+
+HDF5 writes where a page is before it writes the page, and last of all how long the file
+is. So that a process may be killed in between, every column has its index from the
+start, and the file states its length before each flush.
 """
 
 import contextlib
 import os
 import secrets
+import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import h5py
 import numpy as np
-from h5py import h5d, h5f, h5p, h5s, h5t
+from h5py import h5d, h5f, h5o, h5p, h5s, h5t
 from numpy.typing import NDArray
 
 from vasc.arrays import Column
@@ -25,6 +30,8 @@ from vasc.timeline.layout import fill_value
 
 COMPRESSION = 4
 """Level of deflate, from 0 to 9."""
+HEAD_BYTES = 52
+"""Bytes at the beginning of a file that tell how long it is."""
 
 
 class GrowingColumn:
@@ -45,6 +52,13 @@ class GrowingColumn:
         self.dtype: np.dtype[Any] = dataset.dtype
         self._memory_type = h5t.py_create(self.dtype)
         self.n_rows: int = dataset.shape[0]
+
+    @classmethod
+    def begin(cls, dataset: h5d.DatasetID) -> None:
+        """Make the index of an empty column, by a row that is dropped again."""
+        column = cls(dataset)
+        column.write(0, np.zeros((1, *dataset.shape[1:]), dtype=column.dtype))
+        column.cut(0)
 
     def write(self, start: int, rows: NDArray) -> None:
         """Write ``rows`` (contiguous, of the column's dtype) from row ``start`` on."""
@@ -80,6 +94,9 @@ class Store:
         self.path = path
         self._file = file
         self._marks: dict[str, GrowingColumn | CompressedColumn] = {}
+        # what a killed run left beyond the end of the file goes away first, so that HDF5
+        # tells its length right from now on
+        h5f.flush(file.id)
 
     @classmethod
     def create(cls, path: Path) -> "Store":
@@ -142,21 +159,29 @@ class Store:
             creation.set_shuffle()
             creation.set_deflate(COMPRESSION)
             creation.set_fletcher32()
-        space = h5s.create_simple((0, *column.shape), (h5s.UNLIMITED, *column.shape))
-        dataset = h5d.create(
-            self._file.id, name.encode(), h5t.py_create(dtype), space, dcpl=creation
-        )
-        if is_compressed:
-            CompressedColumn.begin(dataset)
-        self._describe(h5py.Dataset(dataset), attributes)
+        dataset = self._make_column(name, h5t.py_create(dtype), column.shape, creation)
+        self._describe(dataset, attributes)
+
+    def add_column_like(self, name: str, other: h5py.Dataset) -> None:
+        """Make an empty column like that of another file, with its attributes."""
+        creation = other.id.get_create_plist()
+        dataset = self._make_column(name, other.id.get_type(), other.shape[1:], creation)
+        self._describe_like(dataset, other)
+
+    def add_group_like(self, name: str, other: h5py.Group) -> None:
+        """Make a group like that of another file, with its attributes and no members."""
+        self._describe_like(self._file.require_group(name), other)
+
+    def copy(self, name: str, other: h5py.Dataset) -> None:
+        """Copy a dataset of another file, with its attributes."""
+        h5o.copy(other.id, b".", self._file.id, name.encode())
 
     def column(self, name: str) -> GrowingColumn | CompressedColumn:
         """Open a column for appending, without a cache: rows go straight to the file."""
         access = h5p.create(h5p.DATASET_ACCESS)
         access.set_chunk_cache(0, 0, 0.0)
         dataset = h5d.open(self._file.id, name.encode(), access)
-        has_filters = dataset.get_create_plist().get_nfilters() > 0
-        return CompressedColumn(dataset) if has_filters else GrowingColumn(dataset)
+        return CompressedColumn(dataset) if _has_filters(dataset) else GrowingColumn(dataset)
 
     def mark(self, name: str, value: int) -> None:
         """Set a mark, the only kind of value that is rewritten, and bring it to the file."""
@@ -166,6 +191,7 @@ class Store:
 
     def flush(self) -> None:
         """Hand everything written so far to the operating system."""
+        self._state_end()
         h5f.flush(self._file.id)
 
     def close(self) -> None:
@@ -180,6 +206,35 @@ class Store:
         except (OSError, RuntimeError) as error:
             raise OutputError(f"{self.path}: cannot be written: {reason(error)}") from error
 
+    def _state_end(self) -> None:
+        """Let the file be as long, and say so, as it is after the next flush."""
+        if sys.platform == "win32":
+            return
+        handle: int = self._file.id.get_vfd_handle()
+        stated = _stated_end(os.pread(handle, HEAD_BYTES, 0))
+        end = self._file.id.get_filesize()
+        if stated is None or stated.end >= end:
+            return
+        if os.fstat(handle).st_size < end:
+            os.ftruncate(handle, end)
+        os.pwrite(handle, end.to_bytes(8, "little"), stated.offset)
+
+    def _make_column(
+        self, name: str, kind: h5t.TypeID, row_shape: tuple[int, ...], creation: h5p.PropDCID
+    ) -> h5py.Dataset:
+        """Make an empty column that has its index already."""
+        space = h5s.create_simple((0, *row_shape), (h5s.UNLIMITED, *row_shape))
+        dataset = h5d.create(self._file.id, name.encode(), kind, space, dcpl=creation)
+        (CompressedColumn if _has_filters(dataset) else GrowingColumn).begin(dataset)
+        return h5py.Dataset(dataset)
+
+    @staticmethod
+    def _describe_like(target: h5py.HLObject, other: h5py.HLObject) -> None:
+        """Set the attributes that another object has."""
+        for key, value in other.attrs.items():
+            kept = other.attrs.get_id(key)
+            target.attrs.create(key, value, shape=kept.shape, dtype=kept.dtype)
+
     @staticmethod
     def _describe(target: h5py.HLObject, attributes: Mapping[str, Any]) -> None:
         """Set attributes, texts as strings of fixed length."""
@@ -187,6 +242,40 @@ class Store:
             if isinstance(value, str):
                 value = np.array(value.encode(), dtype=f"S{max(1, len(value.encode()))}")
             target.attrs.create(key, value)
+
+
+class _StatedEnd(NamedTuple):
+    """How long a file says it is, and where it says so."""
+
+    end: int
+    offset: int
+
+
+def stated_end(path: Path) -> int | None:
+    """Give how long a file says it is, None if it does not say so in the way vasc knows.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be read.
+    """
+    with path.open("rb") as file:
+        stated = _stated_end(file.read(HEAD_BYTES))
+    return None if stated is None else stated.end
+
+
+def _stated_end(head: bytes) -> _StatedEnd | None:
+    """Read the end that the first bytes of a file state, in the superblocks without a sum."""
+    # version 1 has four bytes more than version 0 before the addresses; both begin at 0
+    if len(head) < HEAD_BYTES or head[8] > 1 or head[13] != 8:
+        return None
+    offset = 40 + 4 * head[8]
+    return _StatedEnd(int.from_bytes(head[offset : offset + 8], "little"), offset)
+
+
+def _has_filters(dataset: h5d.DatasetID) -> bool:
+    """Tell whether the chunks of a dataset pass through filters."""
+    return dataset.get_create_plist().get_nfilters() > 0
 
 
 def reason(error: BaseException) -> str:

@@ -28,6 +28,7 @@ from vasc.timeline.layout import (
     motion_of,
 )
 from vasc.timeline.provenance import begin_session, end_session
+from vasc.timeline.salvage import mend
 from vasc.timeline.storage import GrowingColumn, Store
 
 BATCH_FRAMES = 64
@@ -170,7 +171,9 @@ class Recorder:
         """Open a timeline to continue it, cut to its committed frames.
 
         What a killed run wrote and did not commit is dropped, so that the
-        finished file holds the same rows as that of an undisturbed run. The
+        finished file holds the same rows as that of an undisturbed run. If it was
+        killed so that HDF5 can no longer write its file, what is committed is copied
+        to a new one that takes its place, and the provenance says so. The
         states observed next must share tables filled by ``Timeline.tables``.
 
         Raises
@@ -178,14 +181,17 @@ class Recorder:
         TimelineError
             If the file is no sound timeline, is newer than this version, or is
             being written by another run.
+        OutputError
+            If the file cannot be written.
         """
+        problem = mend(Path(path))
         store, found, starts, session = opening.open_to_continue(Path(path))
         try:
             recorder = cls(store, found, starts, session=session)
             with store.writing():
                 recorder._cut()
                 begin = begin_session(session, kind="resume", seed=found.seed)
-                recorder._add_record(begin)
+                recorder._add_record(begin if problem is None else {**begin, "salvaged": problem})
         except BaseException:
             store.close()
             raise
