@@ -217,9 +217,9 @@ def test_of_two_resumes_at_once_one_goes_on(killed):
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(shutil.which("strace") is None, reason="needs strace")
 @pytest.mark.parametrize("verb", ["record", "resume"])
 def test_a_run_killed_at_any_write_call_reads_and_goes_on(kind, verb, tmp_path):
+    assert shutil.which("strace"), "this test needs the program strace"
     n_calls, last_step = 300, 60
     path, whole = tmp_path / "run.h5", tmp_path / "whole.h5"
     synthetic.record(whole, last_step, kind=kind)
