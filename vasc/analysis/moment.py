@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
+from vasc.canals import CanalSet
 from vasc.network import VeinNetwork
 from vasc.sources import SourceSet
 
@@ -33,3 +34,7 @@ class Moment(Protocol):
     @property
     def sources(self) -> SourceSet:
         """The live sources, in real size."""
+
+    @property
+    def canals(self) -> CanalSet:
+        """The canals, in real size."""
