@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
-from panels import INK, draw_arrows, draw_nodes, letters, output_of, panels
+from panels import INK, draw_nodes, letters, output_of, panels
 
 from vasc.render import save
 
@@ -26,6 +26,16 @@ def draw_line(ax: Axes, nodes: NDArray, names: tuple[str, ...], color: str = INK
         ax.annotate(name, (x, y), (0, 9), textcoords="offset points", ha=side, va="center")
 
 
+def draw_weight(ax: Axes, start: NDArray, stop: NDArray, share: float, bend: float) -> None:
+    """Draw a bent arrow from a node to one that it has a share in, labelled with the share."""
+    look = {"arrowstyle": "-|>", "color": YELLOW, "lw": 1.4, "shrinkA": 6, "shrinkB": 6}
+    bent = look | {"connectionstyle": f"arc3,rad={bend}"}
+    ax.annotate("", tuple(stop), tuple(start), arrowprops=bent, zorder=7)
+    x, y = stop - start
+    label = (start + stop) / 2.0 + 0.36 * np.sign(bend) * np.array([y, -x]) / np.hypot(x, y) * 1.6
+    ax.text(*label, f"{share:g}", color=YELLOW, ha="center", va="center", fontsize=8)
+
+
 def main(output: Path) -> None:
     """Draw the figure."""
     first, corner, last = NODES
@@ -35,16 +45,13 @@ def main(output: Path) -> None:
     after.plot(*NODES.T, color="#b0b0b0", linewidth=1.0, linestyle="--", zorder=1)
     draw_nodes(after, corner, size=8.0, color="#b0b0b0")
     draw_line(after, np.stack([first, *cut, last]), ("$P_1$", "$P_{n1}$", "$P_{n2}$", "$P_3$"))
-    # the weights of the two nodes that a new one lies between
-    shift = np.array([0.35, -0.3])
-    draw_arrows(after, np.stack([first, corner]) + shift, cut[:1] - [first, corner], YELLOW)
-    shift = np.array([-0.2, -0.42])
-    draw_arrows(after, np.stack([last, corner]) + shift, cut[1:] - [last, corner], YELLOW)
-    for text, place in (
-        (f"{1 - ALPHA:g}", first + cut[0]),
-        (f"{ALPHA:g}", corner + cut[0]),
+    for start, stop, share, bend in (
+        (first, cut[0], 1 - ALPHA, 0.35),
+        (corner, cut[0], ALPHA, -0.35),
+        (last, cut[1], 1 - ALPHA, -0.35),
+        (corner, cut[1], ALPHA, 0.35),
     ):
-        after.text(*(place / 2 + [0.5, -0.45]), text, color=YELLOW, ha="left", fontsize=8)
+        draw_weight(after, start, stop, share, bend)
     letters((before, after))
     save(figure, output)
 
