@@ -9,7 +9,7 @@ from vasc.render import save
 
 CONFIGS = ("arabidopsis-local-to-global",)
 STEPS = (20, 41, 120, 226, 240, 290, 420)
-"""A protrusion, the source at the tip, the midvein, the first lateral sources, the lower halves, the
+"""A protrusion, the source at the tip, the midvein, the first lateral sources, lower halves, the
 upper halves with the second loops, and the third with minor veins."""
 
 
