@@ -1,0 +1,265 @@
+"""What the connectivity checker says: what veins connect, what was predicted, and why."""
+
+from collections import Counter
+from dataclasses import asdict, dataclass
+from math import degrees, inf
+from typing import Any
+
+from vasc.validation.stem_phyllotaxis.connectivity import (
+    Connectivity,
+    Deviation,
+    Steps,
+    measure_connectivity,
+)
+from vasc.validation.stem_phyllotaxis.lattice import Prediction, as_pair, predict
+from vasc.validation.stem_phyllotaxis.parastichies import (
+    ContactParastichies,
+    PrimordiumRow,
+    contact_parastichies,
+    n_sympodia,
+    topology_table,
+)
+from vasc.validation.stem_phyllotaxis.stem_graph import StemGraph
+from vasc.validation.stem_phyllotaxis.transitions import Interval, intervals
+from vasc.validation.stem_references import LEAST_FRACTION
+
+NEARBY = 4.0
+"""Thresholds are looked for down to this part of the ratio, and up to this multiple."""
+
+
+@dataclass(frozen=True)
+class TieVerdict:
+    """How the links turned out that a tie leaves undecided.
+
+    Parameters
+    ----------
+    steps : tuple of int
+        The steps that are tied.
+    kept : float
+        Share of the judged primordia that have one of them.
+    allowed : float
+        Share of the judged primordia that have all other steps predicted, and none that
+        is not predicted.
+    doubled : tuple of tuple of int
+        Judged primordia that follow each other along a tied step and both have it, though
+        the step twice as long is shorter than it.
+    explanation : str
+        The tie in words.
+    """
+
+    steps: Steps
+    kept: float
+    allowed: float
+    doubled: tuple[tuple[int, int], ...]
+    explanation: str
+
+    @property
+    def passed(self) -> bool:
+        """All other links are there, and of two equal sides no more than one is kept."""
+        return self.allowed == 1.0 and not self.doubled
+
+
+@dataclass(frozen=True)
+class ConnectivityReport:
+    """The veins of a stem held against what its phyllotaxis predicts.
+
+    Parameters
+    ----------
+    graph : StemGraph
+        The stem.
+    connectivity : Connectivity
+        What its veins connect.
+    prediction, surface : Prediction
+        What the lattice of primordia predicts along chords, and along the surface.
+    interval : Interval
+        Where the prediction holds.
+    tie : TieVerdict or None
+        How tied links turned out; None if there are none.
+    parastichies : ContactParastichies
+        Of the lattice.
+    least_fraction : float
+        Share of the judged primordia that must have exactly the pair.
+    """
+
+    graph: StemGraph
+    connectivity: Connectivity
+    prediction: Prediction
+    surface: Prediction
+    interval: Interval
+    tie: TieVerdict | None
+    parastichies: ContactParastichies
+    least_fraction: float = LEAST_FRACTION
+
+    @property
+    def steps(self) -> Steps:
+        """The steps that the stem is said to have.
+
+        Those of most judged primordia; a tied step counts where any of them has it.
+        """
+        if self.tie is None:
+            return self.connectivity.dominant
+        tied = set(self.tie.steps)
+        found = [set(self.connectivity.steps[m]) for m in self.connectivity.judged]
+        firm = Counter(tuple(sorted(each - tied)) for each in found).most_common(1)[0][0]
+        return tuple(sorted(set(firm).union(*(each & tied for each in found))))
+
+    @property
+    def pair(self) -> Steps:
+        """The steps, a single one written twice."""
+        return as_pair(self.steps)
+
+    @property
+    def fraction(self) -> float:
+        """Share of the judged primordia that have exactly the steps of the pair."""
+        return self.connectivity.share({self.steps})
+
+    @property
+    def exceptions(self) -> tuple[Deviation, ...]:
+        """The judged primordia that have other steps than the pair."""
+        return self.connectivity.exceptions(self.steps)
+
+    @property
+    def passed(self) -> bool:
+        """The pair is the predicted one, and enough primordia have it; ties have their rule."""
+        is_enough = self.fraction >= self.least_fraction if self.tie is None else self.tie.passed
+        return self.pair == self.prediction.pair and is_enough
+
+    @property
+    def table(self) -> tuple[PrimordiumRow, ...]:
+        """Phyllotaxis against the topology of veins, primordium by primordium."""
+        return topology_table(self.connectivity, self.graph.lattice, self.prediction)
+
+    def as_json(self) -> dict[str, Any]:
+        """Give the report as JSON values; angles are in degrees."""
+        judged, lattice = self.connectivity.judged, self.graph.lattice
+        ends = (self.interval.low, self.interval.high)
+        return {
+            "divergence": degrees(lattice.divergence),
+            "rise": lattice.rise,
+            "radius": lattice.radius,
+            "per_level": lattice.per_level,
+            "ratio": lattice.ratio,
+            "primordia": len(self.graph.primordia),
+            "judged": [judged.start, judged.stop - 1],
+            "links": [list(link) for link in self.connectivity.links],
+            "pair": list(self.pair),
+            "fraction": self.fraction,
+            "least_fraction": self.least_fraction,
+            "predicted": list(self.prediction.pair),
+            "predicted_on_surface": list(self.surface.pair),
+            "interval": [None if end in (0.0, inf) else end for end in ends],
+            "tie": None if self.tie is None else asdict(self.tie) | {"pass": self.tie.passed},
+            "exceptions": [asdict(one) for one in self.exceptions],
+            "parastichies": asdict(self.parastichies)
+            | {
+                "angles": [degrees(angle) for angle in self.parastichies.angles],
+                "opposed": self.parastichies.is_opposed,
+            },
+            "sympodia": n_sympodia(self.steps),
+            "table": [asdict(row) for row in self.table],
+            "pass": self.passed,
+        }
+
+
+def check_connectivity(
+    graph: StemGraph, least_fraction: float = LEAST_FRACTION
+) -> ConnectivityReport:
+    """Hold the veins of a stem against what its phyllotaxis predicts.
+
+    Parameters
+    ----------
+    graph : StemGraph
+        Veins and primordia.
+    least_fraction : float
+        Share of the judged primordia that must have exactly the pair.
+
+    Returns
+    -------
+    ConnectivityReport
+
+    Raises
+    ------
+    VascError
+        If there are fewer than 3 b + 20 primordia, with b the largest step predicted.
+
+    References
+    ----------
+    Runions (2008), chapter 6.
+    """
+    lattice = graph.lattice
+    prediction = predict(lattice)
+    connectivity = measure_connectivity(graph, prediction.steps[-1])
+    return ConnectivityReport(
+        graph=graph,
+        connectivity=connectivity,
+        prediction=prediction,
+        surface=predict(lattice, "arc"),
+        interval=_interval(graph),
+        tie=judge_tie(connectivity, prediction),
+        parastichies=contact_parastichies(lattice),
+        least_fraction=least_fraction,
+    )
+
+
+def _interval(graph: StemGraph) -> Interval:
+    """Give the range of radius over rise around a stem with one prediction."""
+    ratio = graph.lattice.ratio
+    found = intervals(
+        graph.divergence, low=ratio / NEARBY, high=ratio * NEARBY, per_level=graph.per_level
+    )
+    return next(one for one in found if one.low <= ratio < one.high)
+
+
+def judge_tie(connectivity: Connectivity, prediction: Prediction) -> TieVerdict | None:
+    """Judge the links of a stem whose lattice is tied; None if it is not.
+
+    Parameters
+    ----------
+    connectivity : Connectivity
+        What the veins connect.
+    prediction : Prediction
+        What the lattice predicts.
+
+    Returns
+    -------
+    TieVerdict or None
+    """
+    if not prediction.tied:
+        return None
+    tied, firm = set(prediction.tied), set(prediction.firm)
+    steps = {m: set(connectivity.steps[m]) for m in connectivity.judged}
+    doubled = tuple(
+        (m, m + step)
+        for step in prediction.tied
+        if 2 * step in firm
+        for m in steps
+        if step in steps[m] and step in steps.get(m + step, set())
+    )
+    return TieVerdict(
+        steps=prediction.tied,
+        kept=sum(bool(each & tied) for each in steps.values()) / len(steps),
+        allowed=sum(each - tied == firm for each in steps.values()) / len(steps),
+        doubled=doubled,
+        explanation=_explained(prediction),
+    )
+
+
+def _explained(prediction: Prediction) -> str:
+    """Say in words what a tie is, and what it asks for."""
+    told = []
+    for step in prediction.tied:
+        if 2 * step in prediction.firm:
+            told.append(
+                f"Primordia n, n + {step} and n + {2 * step} are the corners of an isosceles"
+                f" triangle whose equal sides, n to n + {step} and n + {step} to n + {2 * step},"
+                f" are its longest. Strictly no longest side is an edge; as the two are equal,"
+                f" small differences in growth decide which is cut, and of two that follow each"
+                f" other no more than one can be kept."
+            )
+        else:
+            told.append(
+                f"A rival of step {step} is exactly as long as it, so small differences in growth"
+                f" decide whether n and n + {step} are connected."
+            )
+    asked = ", ".join(f"n + {step}" for step in prediction.firm)
+    return " ".join([*told, f"Every n has to be connected to {asked or 'no other'} at any rate."])
