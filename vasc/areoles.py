@@ -115,6 +115,9 @@ def polygon_areas(points: Points, polygons: Ids, n_polygons: int) -> Floats:
     >>> polygon_areas(square, np.zeros(4, dtype=np.int32), 2)
     array([4., 0.])
     """
+    if not n_polygons:
+        # also for points in space, where there are none
+        return np.empty(0)
     lengths = np.bincount(polygons, minlength=n_polygons)
     ends = np.cumsum(lengths)
     firsts = (ends - lengths)[polygons]

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from vasc.errors import ShapeError
 
 Points = NDArray[np.float64]
-"""Positions, shape (n, 2), in units of length."""
+"""Positions, shape (n, 2), or (n, 3) in space, in units of length."""
 Ids = NDArray[np.int32]
 """Row numbers of a table, -1 is null."""
 Steps = NDArray[np.int32]

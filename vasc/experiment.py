@@ -5,23 +5,28 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vasc.config import Experiment, experiment_from_record
+from vasc.domain import Blade
 from vasc.errors import TimelineError
 from vasc.events import EventKind, StopReason
 from vasc.models.base import Model
 from vasc.network import Origin
 from vasc.simulation import Observer, simulate
-from vasc.state import TABLE_COLUMNS, Places, State
+from vasc.state import State
 from vasc.streams import Streams
-from vasc.timeline import Motion, Recorder, Timeline, motion_of
-
-FRAME_COLUMNS = ("time", "motion", "outline_motion")
-"""Columns of ``frames`` that a state gives under the same name, if at all."""
+from vasc.timeline import Recorder, Timeline, motion_of
+from vasc.timeline.comparison import (
+    FRAME_COLUMNS,
+    Difference,
+    compare_places,
+    form_differences,
+    frame_differences,
+    table_differences,
+)
 
 OUTLINE_ERROR = 0.1
 """A node at most that far beyond a deformed outline, in D, may be on the margin."""
@@ -51,7 +56,7 @@ class Summary:
     stalls_resolved : int
         Times the stall rule chose a direction.
     nodes_outside : int
-        Nodes that lie outside the blade, seeds left out.
+        Nodes that lie outside the blade, seeds left out; 0 for a stem, which has none.
     wall_seconds : float
         Time this session took.
     stop_reason : str or None
@@ -73,21 +78,6 @@ class Summary:
     wall_seconds: float
     stop_reason: str | None
     is_interrupted: bool = False
-
-
-class Difference(NamedTuple):
-    """The first value of a column that a second run gives differently.
-
-    The row is -1 when a whole is compared. In the table ``motion``, of explicit
-    positions, it is counted from the first row of the step.
-    """
-
-    step: int
-    table: str
-    column: str
-    row: int
-    recorded: str
-    repeated: str
 
 
 def run(
@@ -139,11 +129,13 @@ def run(
         config_toml=experiment.toml,
         config=experiment.record,
         model=experiment.kind,
-        growth=parameters.growth.kind,
+        growth=_growth_name(experiment),
         seed=parameters.seed,
         blade=state.blade,
         stream_names=streams.names,
         motion=motion_of(state),
+        dimensions=state.dimensions,
+        base_ring=state.base_ring,
         units=None if units is None else units.model_dump(mode="json"),
         force=force,
         record_perceived=parameters.record.perceived != "none",
@@ -244,13 +236,10 @@ def verify(path: str | Path, *, observers: Iterable[Observer] = ()) -> list[Diff
             frames["streams"].append(streams.state())
             for name in ("counts", *FRAME_COLUMNS):
                 frames[name].append(getattr(state, name))
-            _compare_places(timeline, state, places)
+            compare_places(timeline, state, places)
         repeated = {name: np.array(rows) for name, rows in frames.items() if rows[0] is not None}
-        found = [*_frame_differences(timeline, repeated), *_table_differences(timeline, state)]
-        found.extend(places.values())
-        if timeline.motion != motion_of(state):
-            said = [str(timeline.motion), str(motion_of(state))]
-            found.append(Difference(0, "", "motion", -1, *said))
+        found = [*frame_differences(timeline, repeated), *table_differences(timeline, state)]
+        found.extend([*places.values(), *form_differences(timeline, state)])
         if timeline.is_complete != state.is_finished:
             said = [str(flag).lower() for flag in (timeline.is_complete, state.is_finished)]
             found.append(Difference(timeline.last_step, "", "complete", -1, *said))
@@ -297,15 +286,6 @@ def _summary(
     """Sum up a state."""
     kinds = np.bincount(state.rows("events", "kind"), minlength=len(EventKind)).tolist()
     network = state.network
-    # a seed lies on the margin, where the petiole is attached
-    is_outside = ~state.blade.contains(network.positions)
-    is_outside &= network.origins != Origin.SEED
-    is_outside[network.retired] = False
-    outside = np.flatnonzero(is_outside)
-    if state.places is not None:
-        # the recorded outline is a polygon, nodes on the margin are between its corners
-        gaps = state.blade.margin_distance(network.positions[outside])
-        outside = outside[gaps > OUTLINE_ERROR]
     return Summary(
         output=path,
         steps=state.step,
@@ -316,11 +296,31 @@ def _summary(
         joins=kinds[EventKind.VEIN_JOINED],
         loops=kinds[EventKind.LOOP_CLOSED],
         stalls_resolved=kinds[EventKind.STALL_RESOLVED],
-        nodes_outside=len(outside),
+        nodes_outside=0 if state.blade is None else _count_outside(state, state.blade),
         wall_seconds=time.perf_counter() - started,
         stop_reason=reason,
         is_interrupted=is_interrupted,
     )
+
+
+def _count_outside(state: State, blade: Blade) -> int:
+    """Count the nodes that lie outside the blade."""
+    network = state.network
+    # a seed lies on the margin, where the petiole is attached
+    is_outside = ~blade.contains(network.positions)
+    is_outside &= network.origins != Origin.SEED
+    is_outside[network.retired] = False
+    outside = np.flatnonzero(is_outside)
+    if state.places is not None:
+        # the recorded outline is a polygon, nodes on the margin are between its corners
+        outside = outside[blade.margin_distance(network.positions[outside]) > OUTLINE_ERROR]
+    return len(outside)
+
+
+def _growth_name(experiment: Experiment) -> str:
+    """Give the name of the growth; experiments on stems have none."""
+    growth = getattr(experiment.parameters, "growth", None)
+    return "none" if growth is None else str(growth.kind)
 
 
 def _stop_reason(state: State) -> str | None:
@@ -330,65 +330,3 @@ def _stop_reason(state: State) -> str | None:
     if not state.is_finished or not len(rows):
         return None
     return StopReason(int(state.rows("events", "subject")[rows[-1]])).name.lower()
-
-
-def _compare_places(timeline: Timeline, state: State, found: dict[str, Difference]) -> None:
-    """Compare the explicit positions of a step; the first difference of each kind is added."""
-    if state.places is None or timeline.motion != Motion.EXPLICIT:
-        return
-    for name in (one for one in Places._fields if one not in found):
-        recorded, repeated = timeline.places(name, state.step), getattr(state.places, name)
-        steps = np.full(max(len(recorded), len(repeated)), state.step)
-        for difference in _difference("motion", name, recorded, repeated, steps):
-            found[name] = difference
-
-
-def _frame_differences(timeline: Timeline, repeated: dict[str, NDArray]) -> Iterator[Difference]:
-    """Compare the columns of ``frames``."""
-    recorded = timeline.frames
-    # an explicit motion has no maps
-    for name in (one for one in ("streams", *FRAME_COLUMNS) if one in recorded and one in repeated):
-        steps = np.arange(max(len(recorded[name]), len(repeated[name])))
-        yield from _difference("frames", name, recorded[name], repeated[name], steps)
-    for index, table in enumerate(TABLE_COLUMNS):
-        if table == "perceived" and not timeline.records_perceived:
-            continue
-        counts, column = repeated["counts"][:, index], f"n_{table}"
-        steps = np.arange(max(timeline.n_frames, len(counts)))
-        yield from _difference("frames", column, recorded[column], counts, steps)
-
-
-def _table_differences(timeline: Timeline, state: State) -> Iterator[Difference]:
-    """Compare the columns of every table."""
-    for table, columns in TABLE_COLUMNS.items():
-        if table == "perceived" and not timeline.records_perceived:
-            continue
-        n_rows = max(timeline.n_rows(table), state.n_rows(table))
-        counts = timeline.frames[f"n_{table}"]
-        # the first step whose count is beyond a row is the step of its birth
-        steps = np.searchsorted(counts, np.arange(n_rows), side="right")
-        for name in columns:
-            recorded, repeated = timeline.table(table, name), state.rows(table, name)
-            yield from _difference(table, name, recorded, repeated, steps)
-
-
-def _difference(
-    table: str, column: str, recorded: NDArray, repeated: NDArray, steps: NDArray
-) -> Iterator[Difference]:
-    """Give the first row at which two columns differ in any bit, if there is one."""
-    n_both = min(len(recorded), len(repeated))
-    rows = [_bits(rows[:n_both], recorded.dtype) for rows in (recorded, repeated)]
-    differing = np.flatnonzero((rows[0] != rows[1]).any(axis=1))
-    if len(differing):
-        row = int(differing[0])
-        said = [str(np.asarray(values[row]).tolist()) for values in (recorded, repeated)]
-        yield Difference(int(steps[row]), table, column, row, *said)
-    elif len(recorded) != len(repeated):
-        said = [f"{len(values)} rows" for values in (recorded, repeated)]
-        yield Difference(int(steps[n_both]), table, column, n_both, *said)
-
-
-def _bits(rows: NDArray, dtype: np.dtype) -> NDArray[np.uint8]:
-    """Give the bytes of each row, so that equal means equal in every bit."""
-    width = dtype.itemsize * int(np.prod(rows.shape[1:]))
-    return np.ascontiguousarray(rows, dtype=dtype).view(np.uint8).reshape(len(rows), width)

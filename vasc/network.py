@@ -49,7 +49,7 @@ class VeinNetwork:
 
     Parameters
     ----------
-    positions : ndarray of shape (n, 2), float64
+    positions : ndarray of shape (n, d), float64
         Where the nodes are at this step; row = node id.
     parents : ndarray of shape (n,), int32
         The node each node extends, -1 for a seed.

@@ -15,11 +15,15 @@ class Cause(IntEnum):
     """Centre of the largest empty circle, within the blade."""
     MARGIN = 3
     """Centre of the largest empty circle, on the margin."""
+    PRIMORDIUM = 4
+    """A leaf primordium, at the tip of a stem."""
 
 
 SOURCE_COLUMNS = {
     "birth": Column("i4", "step of birth"),
-    "cause": Column("i1", "0 dart, 1 given, 2 largest empty circle, 3 the same, on the margin"),
+    "cause": Column(
+        "i1", "0 dart, 1 given, 2 largest empty circle, 3 the same, on the margin, 4 primordium"
+    ),
     "position": Column("f8", "position at birth", unit="length", shape=(2,)),
     "material": Column("f8", "material coordinates", unit="length", shape=(2,)),
 }
@@ -39,7 +43,7 @@ class SourceSet:
     ----------
     ids : ndarray of shape (s,), int32
         Rows of the sources table, ascending.
-    positions : ndarray of shape (s, 2), float64
+    positions : ndarray of shape (s, d), float64
         Where they are at this step.
     births : ndarray of shape (s,), int32
         Steps of birth.

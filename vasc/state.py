@@ -1,6 +1,6 @@
-"""A state of a run: how many rows of each append-only table exist, and the blade then."""
+"""A state of a run: how many rows of each append-only table exist, and where things are then."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vasc.areoles import AREOLE_COLUMNS, BOUNDARY_COLUMNS, AreoleSet, areoles_from_columns
-from vasc.arrays import Ids, Points, Table
+from vasc.arrays import Columns, Ids, Points, Table
 from vasc.canals import CANAL_TABLES, CanalSet, canals_from_columns
 from vasc.domain import Blade
 from vasc.events import EVENT_COLUMNS, EventKind
@@ -16,7 +16,7 @@ from vasc.network import NODE_COLUMNS, SEGMENT_COLUMNS, VeinNetwork
 from vasc.sources import PERCEIVED_COLUMNS, SOURCE_COLUMNS, SourceSet
 from vasc.states import STATE_COLUMNS, Kind, SourceState
 
-TABLE_COLUMNS = {
+TABLE_COLUMNS: dict[str, Columns] = {
     "nodes": NODE_COLUMNS,
     "segments": SEGMENT_COLUMNS,
     "sources": SOURCE_COLUMNS,
@@ -26,18 +26,40 @@ TABLE_COLUMNS = {
     "areoles": AREOLE_COLUMNS,
     "boundaries": BOUNDARY_COLUMNS,
 }
-"""The append-only tables of a run, in the order of ``State.counts``."""
+"""The append-only tables of a run in the plane, in the order of ``State.counts``."""
+PLACED = ("position", "material")
+"""Columns whose rows are points: they have as many numbers as there are dimensions."""
 
 IDENTITY = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 
 
-@dataclass
-class Tables:
-    """The append-only tables that all states of one run share."""
+def table_columns(dimensions: int) -> dict[str, Columns]:
+    """Give the columns of every table of a run in the plane (2) or in space (3)."""
+    return {
+        table: {
+            name: replace(column, shape=(dimensions,)) if name in PLACED else column
+            for name, column in columns.items()
+        }
+        for table, columns in TABLE_COLUMNS.items()
+    }
 
-    tables: dict[str, Table] = field(
-        default_factory=lambda: {name: Table(columns) for name, columns in TABLE_COLUMNS.items()}
-    )
+
+class Tables:
+    """The append-only tables that all states of one run share.
+
+    Parameters
+    ----------
+    dimensions : int
+        2 for a run in the plane (a leaf), 3 for one in space (a stem).
+    tables : dict of str to Table, optional
+        Tables of these dimensions by name; empty ones when not given.
+    """
+
+    def __init__(self, dimensions: int = 2, tables: dict[str, Table] | None = None) -> None:
+        self.dimensions = dimensions
+        self.tables = tables or {
+            name: Table(columns) for name, columns in table_columns(dimensions).items()
+        }
 
     def __getitem__(self, name: str) -> Table:
         """Give a table by its name."""
@@ -74,13 +96,13 @@ class State:
         Loop count; 0 is the initial state.
     time : float
         Model time, in steps; ``[units]`` gives a step a duration.
-    blade : Blade
-        The blade at this time, in real size.
+    blade : Blade or None
+        The blade at this time, in real size; None for a stem.
     motion : ndarray of shape (2, 3), float64, or None
         Affine map from material coordinates to positions at this time; None where
-        there is none, and ``places`` tell the positions.
+        there is none: ``places`` tell the positions, or nothing ever moves.
     outline_motion : ndarray of shape (2, 3), float64, or None
-        Affine map from the initial outline to the outline at this time.
+        Affine map from the initial outline to the outline at this time, None likewise.
     counts : tuple of int
         Rows of every table that exist at this step (``TABLE_COLUMNS`` order).
     live : ndarray of shape (s,), int32
@@ -88,16 +110,20 @@ class State:
     tables : Tables
         The shared tables.
     places : Places or None
-        Explicit positions; None where ``motion`` tells them.
+        Explicit positions; None where ``motion`` tells them. Without either, nothing
+        ever moves, and positions are material coordinates.
     index : object
         What the model needs to go on from here.
     is_finished : bool
         True when the model has nothing left to do.
+    base_ring : ndarray of shape (k,), int32, or None
+        Ids of the nodes of the ring at the base of a stem, in their order around it;
+        None for a blade.
     """
 
     step: int
     time: float
-    blade: Blade
+    blade: Blade | None
     motion: NDArray[np.float64] | None
     outline_motion: NDArray[np.float64] | None
     counts: tuple[int, ...]
@@ -106,6 +132,12 @@ class State:
     places: Places | None = field(repr=False, default=None)
     index: object = field(repr=False, default=None)
     is_finished: bool = False
+    base_ring: Ids | None = field(repr=False, default=None)
+
+    @property
+    def dimensions(self) -> int:
+        """2 for a run in the plane (a leaf), 3 for one in space (a stem)."""
+        return self.tables.dimensions
 
     def n_rows(self, table: str) -> int:
         """Give the number of rows of a table at this step."""
@@ -116,7 +148,7 @@ class State:
         return self.tables[table].view(column, 0, self.n_rows(table))
 
     def positions(self, table: str) -> Points:
-        """Give the positions of all nodes or sources at this time, shape (n, 2)."""
+        """Give the positions of all nodes or sources at this time, shape (n, d)."""
         return positions(self.places, self.motion, table, self.rows(table, "material"))
 
     @cached_property
@@ -165,11 +197,10 @@ class State:
 def positions(
     places: Places | None, motion: NDArray[np.float64] | None, table: str, material: Points
 ) -> Points:
-    """Give the positions of all nodes or sources: explicit ones, or moved material points."""
+    """Give the positions of all nodes or sources: explicit, moved or unmoved material points."""
     if places is not None:
         return places.nodes if table == "nodes" else places.sources
-    assert motion is not None, "a state has places or a motion"
-    return moved(material, motion)
+    return material if motion is None else moved(material, motion)
 
 
 def moved(points: Points, motion: NDArray[np.float64]) -> Points:
@@ -190,7 +221,7 @@ def network_from_columns(
     ----------
     nodes, segments, events : dict of str to ndarray
         Columns of the tables, cut to one step.
-    positions : ndarray of shape (n, 2), float64
+    positions : ndarray of shape (n, d), float64
         Where the nodes are at that step.
 
     Returns

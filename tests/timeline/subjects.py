@@ -91,5 +91,11 @@ SUBJECTS = [
         batch=16,
         seconds=0.6,
     ),
+    Subject(
+        "stem",
+        SYNTHETIC.format(batch=16, last_step=600, kind="StemRun"),
+        batch=16,
+        seconds=0.6,
+    ),
 ]
 """A real run is added here in the same form."""

@@ -12,6 +12,8 @@ from scipy.spatial import ConvexHull
 
 from vasc.domain import Blade
 from vasc.events import EventKind, StopReason
+from vasc.network import Origin
+from vasc.sources import Cause
 from vasc.state import Places, State, Tables, affine, moved, source_states
 from vasc.states import CanalState, Kind, SourceState, check_transitions
 from vasc.streams import Streams
@@ -19,6 +21,8 @@ from vasc.timeline import Motion, Recorder, Timeline
 
 NAMES = ("placement",)
 SEED = 5
+N_RING = 6
+"""Nodes of the ring at the base of a stem."""
 SQUARE = np.array([[-1.0, 0.0], [1.0, 0.0], [1.0, 2.0], [-1.0, 2.0]])
 TOML = 'kind = "synthetic"\nseed = 5  # größer als null\n'
 CONFIG = {"kind": "synthetic", "seed": SEED}
@@ -32,13 +36,15 @@ class SyntheticRun:
     """Isogonic growth by 1 % of the first size a step; rows appended at given rates."""
 
     motion = Motion.AFFINE
+    dimensions = 2
+    cause = Cause.DART
 
     def __init__(
         self, last_step: int, *, nodes: int = 5, perceived: int = 4, sources: int = 3
     ) -> None:
         self.last_step = last_step
         self.rates = {"nodes": nodes, "perceived": perceived, "sources": sources}
-        self.tables = Tables()
+        self.tables = Tables(self.dimensions)
         self.step = -1
         self.blade = blade()
 
@@ -79,11 +85,14 @@ class SyntheticRun:
 
     def _initial(self) -> State:
         self.step = 0
-        zeros = np.zeros((1, 2))
+        points = self._seeds()
         self.tables["nodes"].append(
-            birth=0, parent=-1, origin=0, source=-1, position=zeros, material=zeros
+            birth=0, parent=-1, origin=0, source=-1, position=points, material=points
         )
         return self._state()
+
+    def _seeds(self) -> np.ndarray:
+        return np.zeros((1, 2))
 
     def _advance(self, streams: Streams) -> State:
         self.step += 1
@@ -104,9 +113,9 @@ class SyntheticRun:
         n_new = int(random.integers(0, self.rates["sources"] + 1))
         if not n_new:
             return
-        material = random.random((n_new, 2))
+        material = random.random((n_new, self.dimensions))
         rows = self.tables["sources"].append(
-            birth=self.step, cause=0, position=self._moved(material), material=material
+            birth=self.step, cause=self.cause, position=self._moved(material), material=material
         )
         self._event(EventKind.SOURCE_PLACED, np.arange(rows.start, rows.stop), -1)
 
@@ -114,7 +123,7 @@ class SyntheticRun:
         n_new, n_old = self.rates["nodes"], self.tables["nodes"].n_rows
         n_sources = self.tables["sources"].n_rows
         parents = random.integers(0, n_old, n_new)
-        material = random.random((n_new, 2))
+        material = random.random((n_new, self.dimensions))
         rows = self.tables["nodes"].append(
             birth=self.step,
             parent=parents,
@@ -242,14 +251,55 @@ class ExplicitRun(SyntheticRun):
         self._event(EventKind.NODE_RETIRED, node, -1)
 
 
-def create(path: Path, **options: object) -> Recorder:
+class StemRun(SyntheticRun):
+    """A stem: points in space, of which none ever moves; primordia are sources and nodes."""
+
+    motion = Motion.NONE
+    dimensions = 3
+    cause = Cause.PRIMORDIUM
+
+    def _seeds(self) -> np.ndarray:
+        angles = 2.0 * np.pi * np.arange(N_RING) / N_RING
+        return np.stack([np.cos(angles), np.sin(angles), np.zeros(N_RING)], axis=1)
+
+    def _moved(self, material: np.ndarray) -> np.ndarray:
+        return material
+
+    def _where(self) -> dict:
+        return {
+            "blade": None,
+            "motion": None,
+            "outline_motion": None,
+            "base_ring": np.arange(N_RING, dtype=np.int32),
+        }
+
+    def _differentiate(self, random: np.random.Generator) -> None:
+        """Now and then a primordium becomes a node of its own, far from any vein."""
+        if random.random() < 0.3:
+            place = random.random((1, 3)) + np.array([0.0, 0.0, 0.1 * self.step])
+            n_sources = self.tables["sources"].n_rows
+            self.tables["nodes"].append(
+                birth=self.step,
+                parent=-1,
+                origin=Origin.PRIMORDIUM,
+                source=n_sources - 1,
+                position=place,
+                material=place,
+            )
+
+
+def create(path: Path, kind: type[SyntheticRun] = SyntheticRun, **options: object) -> Recorder:
+    is_stem = kind.dimensions == 3
     settings: dict = {
         "config_toml": TOML,
         "config": CONFIG,
         "model": "synthetic",
-        "growth": "isogonic",
+        "growth": "none" if is_stem else "isogonic",
         "seed": SEED,
-        "blade": blade(),
+        "blade": None if is_stem else blade(),
+        "motion": kind.motion,
+        "dimensions": kind.dimensions,
+        "base_ring": np.arange(N_RING, dtype=np.int32) if is_stem else None,
         "stream_names": NAMES,
         "units": {"length": "um", "segment": 4.0},
     }
@@ -267,7 +317,7 @@ def record(
 ) -> None:
     """Record a run, or its first ``stop_after`` steps; ``watch`` sees each observed step."""
     run, streams = kind(last_step), Streams(SEED, NAMES)
-    with create(path, motion=kind.motion, **options) as recorder:
+    with create(path, kind, **options) as recorder:
         for state in run.states(streams):
             recorder.observe(state, streams)
             watch(state.step)

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from timeline import crash_points, synthetic
 from timeline.subjects import ROOT
-from timeline.synthetic import ExplicitRun, SyntheticRun, contents
+from timeline.synthetic import ExplicitRun, StemRun, SyntheticRun, contents
 
 from vasc.errors import TimelineError
 from vasc.timeline import Recorder, Timeline, guard, storage, validate, writer
@@ -26,7 +26,9 @@ END_AT = 40
 """Where a file states its end, in the superblock of version 0."""
 
 
-@pytest.fixture(scope="module", params=[SyntheticRun, ExplicitRun], ids=lambda kind: kind.motion)
+@pytest.fixture(
+    scope="module", params=[SyntheticRun, ExplicitRun, StemRun], ids=lambda kind: kind.motion
+)
 def kind(request):
     return request.param
 
@@ -108,7 +110,7 @@ def test_a_run_killed_before_the_end_was_stated_goes_on(killed, kind, whole):
 
 def test_a_run_killed_before_its_indexes_were_written_goes_on(tmp_path, kind, whole):
     path = tmp_path / "run.h5"
-    synthetic.create(path, motion=kind.motion).close(complete=False)
+    synthetic.create(path, kind).close(complete=False)
     erase_empty_indexes(path)
     with Timeline(path) as timeline:
         assert timeline.n_frames == 0

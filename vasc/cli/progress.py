@@ -66,8 +66,9 @@ class ProgressLine:
         if now - began >= SECONDS_OF_RATE or not self._rate:
             self._rate = (state.step - step) / (now - began) if now > began else 0.0
             self._mark = (now, state.step)
+        blade = f"  blade {state.blade.length:.4g} D" if state.blade is not None else ""
         self._write(
-            f"step {state.step:,}  time {state.time:g}  blade {state.blade.length:.4g} D"
+            f"step {state.step:,}  time {state.time:g}{blade}"
             f"  nodes {state.n_rows('nodes'):,}  sources {len(state.live):,}"
             f"  {self._rate:,.0f} steps/s"
         )

@@ -7,7 +7,7 @@ import typer
 from vasc.cli.options import AsJson, Quiet, RunFile
 
 if TYPE_CHECKING:
-    from vasc.experiment import Difference
+    from vasc.timeline.comparison import Difference
 
 
 EXAMPLES = ("vasc verify poplar-leaf.h5",)

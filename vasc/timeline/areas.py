@@ -7,9 +7,12 @@ from numpy.typing import NDArray
 
 from vasc.areoles import polygon_areas
 from vasc.arrays import Points
+from vasc.errors import TimelineError
 from vasc.events import EventKind
 from vasc.state import moved
 from vasc.timeline.layout import Motion, count_column
+
+AREOLES_IN_SPACE = "areoles are recorded in space; they have an area in the plane alone"
 
 
 class Recorded(Protocol):
@@ -46,8 +49,15 @@ def areole_areas(timeline: Recorded) -> dict[str, NDArray]:
     dict of str to ndarray
         ``step`` (int32), ``areole`` (int32) and ``area`` (float64, in square units of
         length): one row an areole a step, by step, then by areole. Empty columns when
-        there is no areole.
+        there is no areole, as in a stem.
+
+    Raises
+    ------
+    TimelineError
+        If areoles are recorded of a run in space.
     """
+    if timeline.motion == Motion.NONE and timeline.n_rows("areoles"):
+        raise TimelineError(AREOLES_IN_SPACE)
     owners, nodes = timeline.table("boundaries", "areole"), timeline.table("boundaries", "node")
     split_at = _split_steps(timeline)
     n_areoles = timeline.frames[count_column("areoles")]

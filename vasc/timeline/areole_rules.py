@@ -11,6 +11,9 @@ from vasc.timeline.rules import Findings, Record, bad_rows
 
 def areoles(record: Record) -> Findings:
     """Check that areoles descend from earlier ones, which their births have split."""
+    if record.timeline.dimensions != 2 and record.timeline.n_rows("areoles"):
+        yield "[areoles] areoles holds rows; there are none in space"
+        return
     parents, births = record.column("areoles", "parent"), record.column("areoles", "birth")
     has_parent = parents != NULL
     is_bad = has_parent & (parents >= np.arange(len(parents)))
@@ -44,7 +47,7 @@ def boundaries(record: Record) -> Findings:
     yield from bad_rows("areoles", "areoles", lengths < 3, lengths, wanted)
     is_bad = record.column("nodes", "birth")[nodes] > births[owners]
     yield from bad_rows("areoles", "boundaries/node", is_bad, nodes, "is born after the areole")
-    if not is_bad.any():
+    if record.timeline.dimensions == 2 and not is_bad.any():
         areas = _areas_at_birth(record, owners, nodes, births)
         wanted = "the area within its boundary; it must run counterclockwise"
         yield from bad_rows("areoles", "areoles", areas < 0.0, areas, wanted)

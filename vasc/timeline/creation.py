@@ -6,9 +6,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from vasc.arrays import Column
+from vasc.arrays import Column, Ids
 from vasc.domain import Blade
+from vasc.errors import TimelineError
 from vasc.timeline import layout
 from vasc.timeline.layout import Motion
 from vasc.timeline.storage import Store, beside, check_output, publish
@@ -22,8 +24,10 @@ def create_file(
     *,
     header: Mapping[str, Any],
     texts: Mapping[str, str],
-    blade: Blade,
+    blade: Blade | None,
+    base_ring: Ids | None,
     motion: Motion,
+    dimensions: int,
     stream_names: tuple[str, ...],
     units: Mapping[str, str | float],
     first_record: str,
@@ -39,10 +43,14 @@ def create_file(
         Attributes of the file: model, growth, seed, whether perceived is recorded.
     texts : mapping of str to str
         The config, by dataset name.
-    blade : Blade
-        The blade at step 0.
+    blade : Blade or None
+        The blade at step 0; None for a stem.
+    base_ring : ndarray of shape (k,), int32, or None
+        Ids of the nodes of the ring at the base of a stem; None for a blade.
     motion : Motion
         How the file tells where everything is at a step.
+    dimensions : int
+        2 for a blade, 3 for a stem.
     stream_names : tuple of str
         Names of the random streams.
     units : mapping of str to str or float
@@ -56,18 +64,24 @@ def create_file(
     ------
     OutputError
         If the file exists and ``force`` is not set, or cannot be made.
+    TimelineError
+        If blade, ring, motion and dimensions do not go together.
     """
+    problem = layout.mismatch(dimensions, motion)
+    if problem is not None:
+        raise TimelineError(f"{path}: {problem}")
+    domain = _domain(path, blade, base_ring, dimensions)
     check_output(path, force=force)
     unready = beside(path)
     try:
         store = Store.create(unready)
         try:
             with store.writing():
-                _describe(store, header, motion, units)
+                _describe(store, header, motion, dimensions, units)
                 for name, text in texts.items():
                     store.add_text(name, text, {"meaning": layout.TEXTS[name]})
-                _add_blade(store, blade)
-                _add_columns(store, stream_names, motion)
+                _add_domain(store, domain, dimensions)
+                _add_columns(store, stream_names, motion, dimensions)
                 _add_provenance(store, first_record)
                 for name, column in layout.MARKS.items():
                     store.add_array(
@@ -82,35 +96,53 @@ def create_file(
 
 
 def _describe(
-    store: Store, header: Mapping[str, Any], motion: Motion, units: Mapping[str, str | float]
+    store: Store,
+    header: Mapping[str, Any],
+    motion: Motion,
+    dimensions: int,
+    units: Mapping[str, str | float],
 ) -> None:
     """Set the attributes of the file and make the groups."""
     version = ".".join(str(number) for number in layout.VERSION)
     fixed = {"format": layout.FORMAT, "version": version, layout.MOTION: str(motion)}
-    store.describe(fixed | dict(header))
-    for group, meaning in layout.groups(motion).items():
+    store.describe(fixed | dict(header) | {layout.DIMENSIONS: np.int8(dimensions)})
+    for group, meaning in layout.groups(motion, dimensions).items():
         known = {name: value for name, value in units.items() if value is not None}
         extra = known if group == layout.UNITS else {}
         store.add_group(group, {"meaning": meaning, **extra})
 
 
-def _add_blade(store: Store, blade: Blade) -> None:
-    """Write the outline at step 0 and the attachment points."""
-    starts = np.cumsum([0, *(len(ring) for ring in blade.rings)])
-    values = {
+def _domain(
+    path: Path, blade: Blade | None, base_ring: Ids | None, dimensions: int
+) -> dict[str, NDArray]:
+    """Give the arrays that describe what develops at step 0: a blade in the plane, or a stem."""
+    if dimensions == 3 and blade is None and base_ring is not None:
+        return {layout.STEM_RING: base_ring}
+    if dimensions == 3 or blade is None or base_ring is not None:
+        raise TimelineError(
+            f"{path}: a file of 2 dimensions takes a blade and no ring at the base,"
+            " one of 3 dimensions a ring and no blade"
+        )
+    return {
         layout.RING_XY: np.concatenate(blade.rings),
-        layout.RING_STARTS: starts,
+        layout.RING_STARTS: np.cumsum([0, *(len(ring) for ring in blade.rings)]),
         layout.SEEDS: blade.seeds,
     }
-    for name, column in layout.STATIC.items():
+
+
+def _add_domain(store: Store, values: Mapping[str, NDArray], dimensions: int) -> None:
+    """Write the arrays that describe what develops."""
+    for name, column in layout.static_columns(dimensions).items():
         rows = np.ascontiguousarray(values[name], dtype=column.dtype)
         attributes = {"meaning": column.meaning} | ({"unit": column.unit} if column.unit else {})
         store.add_array(name, rows, attributes)
 
 
-def _add_columns(store: Store, stream_names: tuple[str, ...], motion: Motion) -> None:
+def _add_columns(
+    store: Store, stream_names: tuple[str, ...], motion: Motion, dimensions: int
+) -> None:
     """Make the growing columns, empty."""
-    for path, column in layout.growing_columns(len(stream_names), motion).items():
+    for path, column in layout.growing_columns(len(stream_names), motion, dimensions).items():
         group, _, name = path.partition("/")
         attributes = layout.column_attributes(group, name, column)
         if path == "frames/streams":

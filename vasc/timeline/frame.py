@@ -11,11 +11,13 @@ from vasc.areoles import AREOLE_COLUMNS, BOUNDARY_COLUMNS, AreoleSet, areoles_fr
 from vasc.arrays import Points
 from vasc.canals import CANAL_TABLES, CanalSet, canals_from_columns
 from vasc.domain import Blade
-from vasc.errors import VascError
+from vasc.errors import TimelineError, VascError
 from vasc.network import NODE_COLUMNS, Origin, SegmentKind, VeinNetwork
 from vasc.sources import SourceSet
-from vasc.state import moved, network_from_columns, source_states
+from vasc.state import moved, network_from_columns, positions, source_states
 from vasc.states import SourceState
+from vasc.timeline.areas import AREOLES_IN_SPACE
+from vasc.timeline.layout import Motion
 
 
 class Recorded(Protocol):
@@ -24,6 +26,10 @@ class Recorded(Protocol):
     @property
     def initial_blade(self) -> Blade:
         """The blade at step 0."""
+
+    @property
+    def motion(self) -> Motion:
+        """How the file tells where everything is at a step."""
 
     def table(self, name: str, column: str, start: int = 0, stop: int | None = None) -> NDArray:
         """Read rows of a column."""
@@ -58,7 +64,7 @@ class Frame:
     def motion(self) -> NDArray[np.float64] | None:
         """Affine map from material coordinates to positions, shape (2, 3).
 
-        None where there is none, and the positions are explicit.
+        None where there is none: positions are explicit, or nothing ever moves.
         """
         return self._row.get("motion")
 
@@ -66,7 +72,7 @@ class Frame:
     def outline_motion(self) -> NDArray[np.float64] | None:
         """Affine map from the outline at step 0 to that of this step, shape (2, 3).
 
-        None where there is none, and the outline is explicit.
+        None where there is none: the outline is explicit, or a stem has none.
         """
         return self._row.get("outline_motion")
 
@@ -86,12 +92,12 @@ class Frame:
 
     @cached_property
     def blade(self) -> Blade:
-        """The blade at this step, in real size."""
-        motion = self.outline_motion
-        if motion is None:
+        """The blade at this step, in real size; a stem has none, which is an error."""
+        if self._timeline.motion == Motion.EXPLICIT:
             seeds = self.positions[self.rows("nodes", "origin") == Origin.SEED]
             return Blade.sound([self._timeline.places("outline", self.step)], seeds)
-        initial = self._timeline.initial_blade
+        initial, motion = self._timeline.initial_blade, self.outline_motion
+        assert motion is not None, "a blade that is not explicit has a map"
         scale = float(motion[0, 0])
         if np.array_equal(motion, [[scale, 0.0, 0.0], [0.0, scale, 0.0]]):
             return initial.scaled(scale)
@@ -100,7 +106,7 @@ class Frame:
 
     @cached_property
     def positions(self) -> Points:
-        """Where the nodes are at this step, shape (n, 2)."""
+        """Where the nodes are at this step, shape (n, d)."""
         return self._positions("nodes")
 
     @cached_property
@@ -131,7 +137,9 @@ class Frame:
 
     @cached_property
     def areoles(self) -> AreoleSet:
-        """The areoles at this step, in real size."""
+        """The areoles at this step, in real size; areoles in space are an error."""
+        if self._timeline.motion == Motion.NONE and self.n_rows("areoles"):
+            raise TimelineError(AREOLES_IN_SPACE)
         return areoles_from_columns(
             {name: self.rows("areoles", name) for name in AREOLE_COLUMNS},
             {name: self.rows("boundaries", name) for name in BOUNDARY_COLUMNS},
@@ -154,8 +162,8 @@ class Frame:
         Returns
         -------
         networkx.Graph
-            Nodes with ``x, y, birth, origin, parent, source``; edges with
-            ``id, birth, kind, length``.
+            Nodes with ``x, y, birth, origin, parent, source``, in space ``z`` as well;
+            edges with ``id, birth, kind, length``.
 
         Raises
         ------
@@ -172,9 +180,10 @@ class Frame:
             network.parents.tolist(),
             network.causes.tolist(),
         )
-        for node, ((x, y), birth, origin, parent, source) in enumerate(zip(*columns, strict=True)):
+        for node, (place, birth, origin, parent, source) in enumerate(zip(*columns, strict=True)):
+            axes = dict(zip("xyz", place, strict=False))
             kind = Origin(origin).name.lower()
-            graph.add_node(node, x=x, y=y, birth=birth, origin=kind, parent=parent, source=source)
+            graph.add_node(node, **axes, birth=birth, origin=kind, parent=parent, source=source)
         edges = (
             network.segments.tolist(),
             network.segment_ids.tolist(),
@@ -189,9 +198,9 @@ class Frame:
 
     def _positions(self, table: str) -> Points:
         """Give where all nodes or sources are at this step."""
-        if self.motion is None:
+        if self._timeline.motion == Motion.EXPLICIT:
             return self._timeline.places(table, self.step)
-        return moved(self.rows(table, "material"), self.motion)
+        return positions(None, self.motion, table, self.rows(table, "material"))
 
 
 def require(package: str, extra: str) -> Any:

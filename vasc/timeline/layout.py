@@ -11,7 +11,7 @@ from vasc.arrays import Column, Columns
 from vasc.events import EventKind, StopReason
 from vasc.network import Origin, SegmentKind
 from vasc.sources import Cause
-from vasc.state import TABLE_COLUMNS, State
+from vasc.state import TABLE_COLUMNS, State, table_columns
 from vasc.states import CanalState, Kind, NodeState, SourceState
 from vasc.streams import WORDS_PER_STREAM
 
@@ -29,8 +29,12 @@ PROVENANCE = "provenance/records"
 RING_XY = "blade/ring_xy"
 RING_STARTS = "blade/ring_starts"
 SEEDS = "blade/seeds"
+STEM_RING = "stem/ring"
 UNITS = "units"
 MOTION = "motion"
+DIMENSIONS = "dimensions"
+DOMAINS = {2: "blade", 3: "stem"}
+"""The group of what develops, by the number of dimensions."""
 
 
 class Motion(StrEnum):
@@ -40,14 +44,28 @@ class Motion(StrEnum):
     """By affine maps of what was there at the start."""
     EXPLICIT = "explicit"
     """By the positions of all of them, step by step."""
+    NONE = "none"
+    """By their material coordinates: nothing ever moves, and there is no outline."""
 
 
 def motion_of(state: State) -> Motion:
     """Tell how a state says where everything is."""
-    return Motion.EXPLICIT if state.motion is None else Motion.AFFINE
+    if state.motion is not None:
+        return Motion.AFFINE
+    return Motion.NONE if state.places is None else Motion.EXPLICIT
+
+
+def mismatch(dimensions: int, motion: Motion) -> str | None:
+    """Say why no file has these dimensions and this motion, None if one may."""
+    if dimensions not in DOMAINS:
+        return f"the attribute {DIMENSIONS!r} is {dimensions}, must be 2 or 3"
+    if (dimensions == 3) != (motion == Motion.NONE):
+        return f"motion {str(motion)!r} with {dimensions} dimensions; 'none' and 3 go together"
+    return None
 
 
 TABLES: dict[str, Columns] = dict(TABLE_COLUMNS)
+"""The tables in the plane; in space the columns of points are wider: ``table_columns``."""
 
 MEANINGS = {
     "frames": "one row a step, step 0 first: row number = step",
@@ -60,11 +78,12 @@ MEANINGS = {
     "areoles": "regions enclosed by veins; one that was split ends with an event",
     "boundaries": "nodes around each areole when it was born, counterclockwise",
     "blade": "the outline at step 0: rings, closed implicitly, even-odd rule",
+    "stem": "the stem at step 0",
     "config": "the experiment as it was given, and with all defaults filled in",
     "provenance": "one session a run or resume: software, platform, times, as JSON",
     "units": "what a length and a time mean; segment lengths and steps if empty",
 }
-"""Meaning of every group that every file has."""
+"""Meaning of every group that files have, one of ``DOMAINS`` in each; without ``motion``."""
 
 PLACES: Columns = {
     "nodes": Column("f8", "positions of all nodes at step 0, at step 1, ...", "length", (2,)),
@@ -84,8 +103,9 @@ STATIC = {
     RING_XY: Column("f8", "points of all rings, one ring after the other", "length", (2,)),
     RING_STARTS: Column("i4", "first row of each ring, and the number of rows at the end"),
     SEEDS: Column("f8", "attachment points: the first vein nodes", "length", (2,)),
+    STEM_RING: Column("i4", "ids of the nodes of the ring at the base, in their order around it"),
 }
-"""Arrays written once."""
+"""Arrays written once, in the group of what develops."""
 
 TEXTS = {
     CONFIG_TOML: "the config as given (TOML)",
@@ -144,9 +164,20 @@ def count_column(table: str) -> str:
     return f"n_{table}"
 
 
-def groups(motion: Motion) -> dict[str, str]:
-    """Give the meaning of every group in a file with such a motion."""
-    return MEANINGS | ({MOTION: PLACES_MEANING} if motion == Motion.EXPLICIT else {})
+def groups(motion: Motion, dimensions: int = 2) -> dict[str, str]:
+    """Give the meaning of every group in a file with such a motion and dimensions."""
+    meanings = {
+        name: meaning
+        for name, meaning in MEANINGS.items()
+        if name not in DOMAINS.values() or name == DOMAINS[dimensions]
+    }
+    return meanings | ({MOTION: PLACES_MEANING} if motion == Motion.EXPLICIT else {})
+
+
+def static_columns(dimensions: int) -> Columns:
+    """Give the arrays written once in a file with such dimensions, by their path."""
+    domain = f"{DOMAINS[dimensions]}/"
+    return {path: column for path, column in STATIC.items() if path.startswith(domain)}
 
 
 def frame_columns(n_streams: int, motion: Motion = Motion.AFFINE) -> Columns:
@@ -170,9 +201,14 @@ def frame_columns(n_streams: int, motion: Motion = Motion.AFFINE) -> Columns:
     }
 
 
-def growing_columns(n_streams: int, motion: Motion = Motion.AFFINE) -> dict[str, Column]:
+def growing_columns(
+    n_streams: int, motion: Motion = Motion.AFFINE, dimensions: int = 2
+) -> dict[str, Column]:
     """Give all columns that grow with the frames, by their path in the file."""
-    grouped: dict[str, Columns] = {"frames": frame_columns(n_streams, motion), **TABLES}
+    grouped: dict[str, Columns] = {
+        "frames": frame_columns(n_streams, motion),
+        **table_columns(dimensions),
+    }
     if motion == Motion.EXPLICIT:
         grouped[MOTION] = PLACES
     return {

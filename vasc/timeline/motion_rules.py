@@ -47,6 +47,9 @@ def positions(record: Record) -> Findings:
         if record.timeline.motion == Motion.EXPLICIT:
             expected = _explicit_at_birth(record, table, births)
             wanted = "is not where the motion has it at its birth"
+        elif record.timeline.motion == Motion.NONE:
+            expected = record.column(table, "material")
+            wanted = "is not its material point, though nothing moves"
         else:
             material, motions = record.column(table, "material"), record.frames["motion"][births]
             expected = (motions[:, :, :2] * material[:, None, :]).sum(axis=2) + motions[:, :, 2]

@@ -17,6 +17,7 @@ from vasc.timeline import guard, layout
 from vasc.timeline.layout import (
     COMMITTED,
     COMPLETE,
+    DIMENSIONS,
     MOTION,
     PLACES,
     PROVENANCE,
@@ -51,6 +52,8 @@ class Found:
         Whether the file holds what sources perceived.
     motion : Motion
         How the file tells where everything is at a step.
+    dimensions : int
+        2 in the plane, 3 in space.
     """
 
     version: tuple[int, int]
@@ -61,6 +64,7 @@ class Found:
     seed: int
     records_perceived: bool
     motion: Motion
+    dimensions: int
 
     @property
     def frame_columns(self) -> Columns:
@@ -70,7 +74,7 @@ class Found:
     @property
     def growing_columns(self) -> dict[str, Column]:
         """All columns of this file that grow with the frames, by path."""
-        return layout.growing_columns(self.n_streams, self.motion)
+        return layout.growing_columns(self.n_streams, self.motion, self.dimensions)
 
 
 def find(path: Path, file: h5py.File) -> Found:
@@ -87,7 +91,11 @@ def find(path: Path, file: h5py.File) -> Found:
     is_complete = _mark(path, file, COMPLETE) == 1
     n_streams = _n_streams(path, file)
     motion = _header(path, file, MOTION, Motion)
-    columns = layout.growing_columns(n_streams, motion)
+    dimensions = _header(path, file, DIMENSIONS, int)
+    problem = layout.mismatch(dimensions, motion)
+    if problem is not None:
+        raise TimelineError(f"{path}: {problem}")
+    columns = layout.growing_columns(n_streams, motion, dimensions)
     datasets = {}
     for name, column in columns.items():
         datasets[name] = guard.open_dataset(path, file, name)
@@ -115,6 +123,7 @@ def find(path: Path, file: h5py.File) -> Found:
         seed=_header(path, file, "seed", int),
         records_perceived=bool(_header(path, file, "records_perceived", int)),
         motion=motion,
+        dimensions=dimensions,
     )
 
 
@@ -136,7 +145,7 @@ def find_places(
     -------
     dict of str to ndarray of shape (n_frames + 1,), int64
         By column of ``motion``: the first row of every step, and the committed rows.
-        Empty where the motion is affine.
+        Empty where the motion is not explicit.
 
     Raises
     ------

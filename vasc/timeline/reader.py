@@ -9,21 +9,19 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from vasc.arrays import NULL, Points, Table
+from vasc.arrays import NULL, Ids, Points, Table
 from vasc.domain import Blade
 from vasc.errors import OutlineError, TimelineError
-from vasc.state import Tables
+from vasc.state import Tables, table_columns
 from vasc.timeline import guard, layout, opening
 from vasc.timeline.access import OpenFile
 from vasc.timeline.areas import areole_areas
-from vasc.timeline.frame import Frame, require
+from vasc.timeline.data_frames import data_frame
+from vasc.timeline.frame import Frame
 from vasc.timeline.layout import MOTION, TABLES, Motion, count_column
 from vasc.timeline.lineage import Lineage
 from vasc.timeline.occurrences import Events
 from vasc.timeline.provenance import sessions
-
-AXES = {"position": ("x", "y"), "material": ("x", "y"), "nodes": ("proximal", "distal")}
-"""Suffixes of the data frame columns that one pair column becomes."""
 
 
 class Timeline:
@@ -106,6 +104,11 @@ class Timeline:
         """How the file tells where everything is at a step."""
         return self.opened.found.motion
 
+    @property
+    def dimensions(self) -> int:
+        """2 for a run in the plane (a leaf), 3 for one in space (a stem)."""
+        return self.opened.found.dimensions
+
     @cached_property
     def model(self) -> str:
         """Name of the model."""
@@ -166,7 +169,9 @@ class Timeline:
 
     @cached_property
     def initial_blade(self) -> Blade:
-        """The blade at step 0."""
+        """The blade at step 0; a stem has none, which is an error."""
+        if self.dimensions != 2:
+            raise TimelineError(f"{self.path}: a stem has no blade")
         xy = self.opened.read_array(layout.RING_XY)
         starts = self.opened.read_array(layout.RING_STARTS)
         ends_fit = len(starts) > 1 and starts[0] == 0 and starts[-1] == len(xy)
@@ -177,6 +182,13 @@ class Timeline:
             return Blade.from_rings(rings, self.opened.read_array(layout.SEEDS))
         except OutlineError as error:
             raise TimelineError(f"{self.path}: the recorded outline is bad: {error}") from error
+
+    @cached_property
+    def base_ring(self) -> Ids:
+        """Ids of the nodes of the ring at the base of a stem; a blade has none: an error."""
+        if self.dimensions != 3:
+            raise TimelineError(f"{self.path}: a blade has no ring at its base")
+        return self.opened.read_array(layout.STEM_RING)
 
     @cached_property
     def frames(self) -> dict[str, NDArray]:
@@ -241,7 +253,7 @@ class Timeline:
         return Frame(self, step, row)
 
     def positions(self, step: int = -1) -> Points:
-        """Give where the nodes of a step were at that step, shape (n, 2).
+        """Give where the nodes of a step were at that step, shape (n, d).
 
         Raises
         ------
@@ -268,7 +280,7 @@ class Timeline:
         Raises
         ------
         TimelineError
-            If the step is not recorded, or the motion is affine.
+            If the step is not recorded, or the motion is not explicit.
         """
         step = self._step(step)
         if name not in self._starts:
@@ -315,7 +327,7 @@ class Timeline:
         """
         step = self._step(step)
         filled: dict[str, Table] = {}
-        for name, columns in TABLES.items():
+        for name, columns in table_columns(self.dimensions).items():
             count = f"frames/{count_column(name)}"
             n_rows = int(self.opened.read(count, step, step + 1)[0])
             table = Table(columns, capacity=max(256, n_rows + n_rows // 8))
@@ -323,13 +335,13 @@ class Timeline:
                 self.opened.read(f"{name}/{column}", 0, n_rows, out=array[:n_rows])
             table.n_rows = n_rows
             filled[name] = table
-        return Tables(filled)
+        return Tables(self.dimensions, filled)
 
     def to_pandas(self, name: str) -> Any:
         """Give a table, or ``frames``, as a ``pandas.DataFrame``; its index is the id.
 
-        Codes become names, pairs become two columns (``position_x``,
-        ``position_y``), null stays -1.
+        Codes become names, points one column an axis (``position_x``,
+        ``position_y``, in space ``position_z``), null stays -1.
 
         Raises
         ------
@@ -338,21 +350,7 @@ class Timeline:
         VascError
             If pandas is not installed.
         """
-        pandas = require("pandas", "tables")
-        if name == "frames":
-            columns = {key: rows for key, rows in self.frames.items() if key != "streams"}
-        else:
-            self.n_rows(name)
-            columns = {column: self.table(name, column) for column in TABLES[name]}
-        flat: dict[str, Any] = {}
-        for key, rows in columns.items():
-            words = guard.names(self.opened.item(f"{name}/{key}"))
-            if words:
-                values = pandas.Series(rows).map(words)
-                flat[key] = values.astype(pandas.CategoricalDtype(list(words.values())))
-            else:
-                flat.update(_flat(key, rows))
-        return pandas.DataFrame(flat).rename_axis("step" if name == "frames" else "id")
+        return data_frame(self, name)
 
     @property
     def n_places(self) -> dict[str, int]:
@@ -376,12 +374,3 @@ class Timeline:
                 f"{self.path}: step {step} is not recorded; steps 0 to {self.last_step} are"
             )
         return step
-
-
-def _flat(key: str, rows: NDArray) -> dict[str, NDArray]:
-    """Give one column a number of each row."""
-    if rows.ndim == 1:
-        return {key: rows}
-    wide = rows.reshape(len(rows), int(np.prod(rows.shape[1:])))
-    suffixes = AXES.get(key) or tuple(str(k) for k in range(wide.shape[1]))
-    return {f"{key}_{suffix}": wide[:, k] for k, suffix in enumerate(suffixes)}

@@ -65,8 +65,12 @@ def _header(record: Record) -> Findings:
     for name in ("model", "growth"):
         if not guard.attribute(record.file, name):
             yield f"[header] the attribute {name!r} is missing or empty"
-    for group in layout.groups(record.timeline.motion):
+    dimensions = record.timeline.dimensions
+    for group in layout.groups(record.timeline.motion, dimensions):
         record.timeline.opened.item(group)
+    for group in (one for d, one in layout.DOMAINS.items() if d != dimensions):
+        if group in record.file:
+            yield f"[header] {group}: a file of {dimensions} dimensions has no such group"
     for table, column in layout.NAMES:
         item = record.timeline.opened.item(f"{table}/{column}")
         for prefix in layout.NAMES[table, column]:
@@ -103,8 +107,24 @@ def _texts(record: Record) -> Findings:
             yield f"[texts] {layout.PROVENANCE}: session {number} lacks {', '.join(missing)}"
 
 
+def _stem(record: Record) -> Findings:
+    """Check that the ring at the base is made of different nodes of step 0."""
+    timeline = record.timeline
+    if timeline.dimensions != 3:
+        return
+    ring = timeline.base_ring
+    known = int(record.counts["nodes"][0]) if timeline.n_frames else np.iinfo(ring.dtype).max
+    is_bad = (ring < 0) | (ring >= known)
+    yield from bad_rows("stem", layout.STEM_RING, is_bad, ring, "no node of step 0")
+    is_bad = np.ones(len(ring), dtype=bool)
+    is_bad[np.unique(ring, return_index=True)[1]] = False
+    yield from bad_rows("stem", layout.STEM_RING, is_bad, ring, "is in the ring already")
+
+
 def _blade(record: Record) -> Findings:
     """Check that the outline can be built and the seeds are finite."""
+    if record.timeline.dimensions != 2:
+        return
     for name in (layout.RING_XY, layout.SEEDS):
         values = record.timeline.opened.read_array(name)
         is_bad = ~np.isfinite(values).all(axis=1)
@@ -118,7 +138,7 @@ def _blade(record: Record) -> Findings:
 
 
 STAGES = (
-    (_links, _header, _texts, _blade),
+    (_links, _header, _texts, _blade, _stem),
     (rules.frames,),
     (rules.filled, rules.codes, rules.steps, rules.ids, motion_rules.explicit),
     (rules.descent, rules.segments, motion_rules.positions, rules.states, rules.ends),

@@ -5,14 +5,15 @@ import time
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import Any, NamedTuple, Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vasc.arrays import Ids
 from vasc.domain import Blade
 from vasc.errors import TimelineError
-from vasc.state import Places, State, Tables
+from vasc.state import State, Tables
 from vasc.streams import Streams
 from vasc.timeline import layout, opening
 from vasc.timeline.compressed import CompressedColumn
@@ -27,6 +28,7 @@ from vasc.timeline.layout import (
     count_column,
     motion_of,
 )
+from vasc.timeline.pending import FRAME_FIELDS, Pending
 from vasc.timeline.provenance import begin_session, end_session
 from vasc.timeline.salvage import mend
 from vasc.timeline.storage import GrowingColumn, Store
@@ -35,18 +37,6 @@ BATCH_FRAMES = 64
 """Frames that are committed together at most."""
 BATCH_SECONDS = 1.0
 """Age of the oldest frame at which a batch is committed."""
-
-
-class _Pending(NamedTuple):
-    """What a frame needs beyond the shared tables, which only grow."""
-
-    step: int
-    time: float
-    counts: tuple[int, ...]
-    motion: NDArray[np.float64] | None
-    outline_motion: NDArray[np.float64] | None
-    places: Places | None
-    streams: NDArray[np.uint64]
 
 
 class Recorder:
@@ -83,13 +73,13 @@ class Recorder:
         self._was_complete = found.is_complete
         self._is_finished = found.is_complete
         self._records_perceived = found.records_perceived
-        self._motion = found.motion
+        self._form = (found.motion, found.dimensions)
         self._written = list(found.counts)
         self._placed = {name: int(rows[-1]) for name, rows in starts.items()}
         self._columns: dict[str, GrowingColumn | CompressedColumn] = {
             name: store.column(name) for name in found.growing_columns
         }
-        self._pending: list[_Pending] = []
+        self._pending: list[Pending] = []
         self._tables: Tables | None = None
         self._opened = self._oldest = self._latest = time.perf_counter()
         self._seconds = 0.0
@@ -105,9 +95,11 @@ class Recorder:
         model: str,
         growth: str,
         seed: int,
-        blade: Blade,
+        blade: Blade | None,
         stream_names: Iterable[str],
         motion: Motion = Motion.AFFINE,
+        dimensions: int = 2,
+        base_ring: Ids | None = None,
         units: Mapping[str, str | float] | None = None,
         force: bool = False,
         record_perceived: bool = True,
@@ -126,12 +118,16 @@ class Recorder:
             Names of the model and of the growth.
         seed : int
             Seed of the run.
-        blade : Blade
-            The blade at step 0.
+        blade : Blade or None
+            The blade at step 0; None for a stem, which has 3 dimensions.
         stream_names : iterable of str
             Names of the random streams, in the order of their recorded words.
         motion : Motion
             How the states tell where everything is: see ``layout.motion_of``.
+        dimensions : int
+            2 in the plane, 3 in space; 3 goes with ``Motion.NONE``, and only so.
+        base_ring : ndarray of shape (k,), int32, optional
+            Ids of the nodes of the ring at the base of a stem.
         units : mapping of str to str or float, optional
             What a length and a time mean.
         force : bool
@@ -143,6 +139,8 @@ class Recorder:
         ------
         OutputError
             If the file exists and ``force`` is not set, or cannot be made.
+        TimelineError
+            If blade, ring, motion and dimensions do not go together.
         """
         names = tuple(stream_names)
         first = begin_session(0, kind="run", seed=seed, parameters=config)
@@ -157,7 +155,9 @@ class Recorder:
             header=header,
             texts={layout.CONFIG_TOML: config_toml, layout.CONFIG_JSON: json.dumps(config)},
             blade=blade,
+            base_ring=base_ring,
             motion=motion,
+            dimensions=dimensions,
             stream_names=names,
             units={} if units is None else units,
             first_record=json.dumps(first),
@@ -204,28 +204,18 @@ class Recorder:
         ------
         TimelineError
             If the state is not the next step, tells its motion in another way than the
-            file, or the recorder is closed.
+            file, is not of its dimensions, or the recorder is closed.
         OutputError
             If the file cannot be written.
         """
         started = time.perf_counter()
         pending = self._pending
         is_next = state.step == self.n_frames + len(pending)
-        if not is_next or motion_of(state) != self._motion or self._is_closed:
+        if not is_next or (motion_of(state), state.dimensions) != self._form or self._is_closed:
             self._refuse(state)
         if not pending:
             self._oldest = started
-        pending.append(
-            _Pending(
-                state.step,
-                state.time,
-                state.counts,
-                state.motion,
-                state.outline_motion,
-                state.places,
-                streams.state(),
-            )
-        )
+        pending.append(Pending.of(state, streams))
         self._tables = state.tables
         self._is_finished = state.is_finished
         # the next frame is expected to take as long as this one did: if it would
@@ -282,10 +272,15 @@ class Recorder:
         if self._is_closed:
             raise TimelineError(f"{self.path}: the recorder is closed")
         expected = self.n_frames + len(self._pending)
-        step, its = state.step, motion_of(state)
+        step, (motion, dimensions) = state.step, self._form
         if step != expected:
             raise TimelineError(f"{self.path}: step {step} came, step {expected} was expected")
-        raise TimelineError(f"{self.path}: step {step} is {its}, the file is {self._motion}")
+        if motion_of(state) != motion:
+            its = motion_of(state)
+            raise TimelineError(f"{self.path}: step {step} is {its}, the file is {motion}")
+        raise TimelineError(
+            f"{self.path}: step {step} has {state.dimensions} dimensions, the file {dimensions}"
+        )
 
     def _commit(self) -> None:
         """Write the pending frames and their rows; only then the frame counter."""
@@ -328,7 +323,7 @@ class Recorder:
         """Write the pending rows of ``frames``."""
         fields = {
             name: [getattr(frame, name) for frame in self._pending]
-            for name in _FRAME_FIELDS
+            for name in FRAME_FIELDS
             if f"frames/{name}" in self._columns
         }
         values: dict[str, Any] = {
@@ -386,6 +381,3 @@ class Recorder:
             )
             if is_complete:
                 self._store.mark(COMPLETE, 1)
-
-
-_FRAME_FIELDS = ("step", "time", "motion", "outline_motion", "streams")

@@ -1,0 +1,108 @@
+"""What a run that is repeated gives differently, column by column and bit by bit."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vasc.state import TABLE_COLUMNS, Places, State
+from vasc.timeline.layout import DIMENSIONS, MOTION, STEM_RING, Motion, motion_of
+from vasc.timeline.reader import Timeline
+
+FRAME_COLUMNS = ("time", "motion", "outline_motion")
+"""Columns of ``frames`` that a state gives under the same name, if at all."""
+
+
+class Difference(NamedTuple):
+    """The first value of a column that a second run gives differently.
+
+    The row is -1 when a whole is compared. In the table ``motion``, of explicit
+    positions, it is counted from the first row of the step.
+    """
+
+    step: int
+    table: str
+    column: str
+    row: int
+    recorded: str
+    repeated: str
+
+
+def compare_places(timeline: Timeline, state: State, found: dict[str, Difference]) -> None:
+    """Compare the explicit positions of a step; the first difference of each kind is added."""
+    if state.places is None or timeline.motion != Motion.EXPLICIT:
+        return
+    for name in (one for one in Places._fields if one not in found):
+        recorded, repeated = timeline.places(name, state.step), getattr(state.places, name)
+        steps = np.full(max(len(recorded), len(repeated)), state.step)
+        for difference in _difference("motion", name, recorded, repeated, steps):
+            found[name] = difference
+
+
+def form_differences(timeline: Timeline, state: State) -> Iterator[Difference]:
+    """Compare the dimensions, the motion, and the ring at the base of a stem."""
+    for name, recorded, repeated in (
+        (DIMENSIONS, timeline.dimensions, state.dimensions),
+        (MOTION, timeline.motion, motion_of(state)),
+    ):
+        if recorded != repeated:
+            yield Difference(0, "", name, -1, str(recorded), str(repeated))
+    if timeline.dimensions == state.dimensions and state.base_ring is not None:
+        table, _, column = STEM_RING.partition("/")
+        rings = timeline.base_ring, state.base_ring
+        steps = np.zeros(max(map(len, rings)), dtype=np.int64)
+        yield from _difference(table, column, *rings, steps)
+
+
+def frame_differences(timeline: Timeline, repeated: dict[str, NDArray]) -> Iterator[Difference]:
+    """Compare the columns of ``frames``."""
+    recorded = timeline.frames
+    # only an affine motion has maps
+    for name in (one for one in ("streams", *FRAME_COLUMNS) if one in recorded and one in repeated):
+        steps = np.arange(max(len(recorded[name]), len(repeated[name])))
+        yield from _difference("frames", name, recorded[name], repeated[name], steps)
+    for index, table in enumerate(TABLE_COLUMNS):
+        if table == "perceived" and not timeline.records_perceived:
+            continue
+        counts, column = repeated["counts"][:, index], f"n_{table}"
+        steps = np.arange(max(timeline.n_frames, len(counts)))
+        yield from _difference("frames", column, recorded[column], counts, steps)
+
+
+def table_differences(timeline: Timeline, state: State) -> Iterator[Difference]:
+    """Compare the columns of every table; of tables of other dimensions, none."""
+    if timeline.dimensions != state.dimensions:
+        return
+    for table, columns in TABLE_COLUMNS.items():
+        if table == "perceived" and not timeline.records_perceived:
+            continue
+        n_rows = max(timeline.n_rows(table), state.n_rows(table))
+        counts = timeline.frames[f"n_{table}"]
+        # the first step whose count is beyond a row is the step of its birth
+        steps = np.searchsorted(counts, np.arange(n_rows), side="right")
+        for name in columns:
+            recorded, repeated = timeline.table(table, name), state.rows(table, name)
+            yield from _difference(table, name, recorded, repeated, steps)
+
+
+def _difference(
+    table: str, column: str, recorded: NDArray, repeated: NDArray, steps: NDArray
+) -> Iterator[Difference]:
+    """Give the first row at which two columns differ in any bit, if there is one."""
+    n_both = min(len(recorded), len(repeated))
+    rows = [_bits(rows[:n_both], recorded.dtype) for rows in (recorded, repeated)]
+    differing = np.flatnonzero((rows[0] != rows[1]).any(axis=1))
+    if len(differing):
+        row = int(differing[0])
+        said = [str(np.asarray(values[row]).tolist()) for values in (recorded, repeated)]
+        yield Difference(int(steps[row]), table, column, row, *said)
+    elif len(recorded) != len(repeated):
+        said = [f"{len(values)} rows" for values in (recorded, repeated)]
+        yield Difference(int(steps[n_both]), table, column, n_both, *said)
+
+
+def _bits(rows: NDArray, dtype: np.dtype) -> NDArray[np.uint8]:
+    """Give the bytes of each row, so that equal means equal in every bit."""
+    width = dtype.itemsize * int(np.prod(rows.shape[1:]))
+    return np.ascontiguousarray(rows, dtype=dtype).view(np.uint8).reshape(len(rows), width)

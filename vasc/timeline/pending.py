@@ -1,0 +1,37 @@
+"""Frames that were observed and are not yet committed."""
+
+from typing import NamedTuple, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vasc.state import Places, State
+from vasc.streams import Streams
+
+FRAME_FIELDS = ("step", "time", "motion", "outline_motion", "streams")
+"""Fields of a pending frame that are columns of ``frames``, those of maps only in some files."""
+
+
+class Pending(NamedTuple):
+    """What a frame needs beyond the shared tables, which only grow."""
+
+    step: int
+    time: float
+    counts: tuple[int, ...]
+    motion: NDArray[np.float64] | None
+    outline_motion: NDArray[np.float64] | None
+    places: Places | None
+    streams: NDArray[np.uint64]
+
+    @classmethod
+    def of(cls, state: State, streams: Streams) -> Self:
+        """Take note of a state, and of the random streams after its step."""
+        return cls(
+            state.step,
+            state.time,
+            state.counts,
+            state.motion,
+            state.outline_motion,
+            state.places,
+            streams.state(),
+        )
