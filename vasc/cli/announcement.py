@@ -39,10 +39,9 @@ class Announcement:
         self.progress.clear()
         parameters = self.experiment.parameters
         expected = regime(parameters)
-        typer.echo(
-            f"{self.experiment.name}: {self.experiment.kind} venation,"
-            f" {parameters.growth.kind} growth, seed {parameters.seed}"
-        )
+        growth = getattr(parameters, "growth", None)
+        what = "vasculature" if growth is None else f"venation, {growth.kind} growth"
+        typer.echo(f"{self.experiment.name}: {self.experiment.kind} {what}, seed {parameters.seed}")
         for sentence in expected.sentences:
             typer.echo(f"  {sentence}")
         # before the warnings, which go another way

@@ -10,7 +10,7 @@ from vasc.cli.options import AsJson, Force, RunFile
 if TYPE_CHECKING:
     from vasc.validation.arabidopsis import SequenceReport
 
-EXAMPLES = ("vasc check sequence arabidopsis.h5",)
+EXAMPLES = ("vasc check sequence arabidopsis.h5", "vasc check connectivity stem.h5")
 """Examples of the group."""
 
 SEQUENCE_EXAMPLES = (
@@ -18,6 +18,9 @@ SEQUENCE_EXAMPLES = (
     "vasc check sequence arabidopsis.h5 --json",
 )
 """Examples of ``vasc check sequence``."""
+
+CONNECTIVITY_EXAMPLES = ("vasc check connectivity stem-golden-5-8.h5 --json",)
+"""Examples of ``vasc check connectivity``."""
 
 WORDS = {True: "pass", False: "FAIL", None: "open"}
 """What a verdict is called in the table."""
@@ -55,6 +58,42 @@ def sequence(
         print_json(found | {"files": [] if output is None else [str(output)]})
     else:
         _print(report, path, output)
+    if not report.passed:
+        raise typer.Exit(1)
+
+
+def connectivity(path: RunFile, as_json: AsJson = False) -> None:
+    """Hold the veins of a stem against what its phyllotaxis predicts.
+
+    Exit code 1 if they connect other primordia than predicted, or too few of them do.
+    """
+    from vasc.cli.printing import print_json, print_pairs, print_table
+    from vasc.timeline import Timeline
+    from vasc.validation.stem_phyllotaxis import check_connectivity
+    from vasc.validation.stem_phyllotaxis.reading import read_stem
+
+    with Timeline(path) as timeline:
+        report = check_connectivity(read_stem(timeline))
+    found = report.as_json()
+    if as_json:
+        print_json(found)
+    else:
+        shown = ("divergence", "rise", "radius", "ratio", "primordia", "judged", "sympodia")
+        pairs = {key: found[key] for key in shown}
+        pairs |= {
+            "pair": tuple(found["pair"]),
+            "share with exactly the pair": f"{found['fraction']:.3f}",
+            "predicted": tuple(found["predicted"]),
+            "predicted along the surface": tuple(found["predicted_on_surface"]),
+            "parastichies": tuple(found["parastichies"]["steps"]),
+        }
+        print_pairs(pairs)
+        if found["exceptions"]:
+            rows = [tuple(one.values()) for one in found["exceptions"]]
+            print_table(tuple(found["exceptions"][0]), rows)
+        if report.tie is not None:
+            typer.echo(report.tie.explanation)
+        typer.echo(f"{path}: {'pass' if report.passed else 'FAIL'}")
     if not report.passed:
         raise typer.Exit(1)
 

@@ -41,7 +41,12 @@ VERBS = (
 )
 
 # verbs with verbs of their own: module, names of its functions, and their examples
-GROUPS = ((check, {"sequence": check.SEQUENCE_EXAMPLES}),)
+GROUPS = (
+    (
+        check,
+        {"sequence": check.SEQUENCE_EXAMPLES, "connectivity": check.CONNECTIVITY_EXAMPLES},
+    ),
+)
 
 DEBUG = "--debug"
 

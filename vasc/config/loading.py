@@ -202,8 +202,12 @@ def _checked(tables: dict[str, Any], folder: Path, label: str) -> "LeafVenation"
     return parameters
 
 
-def _geometry_problems(parameters: "LeafVenation", folder: Path) -> list[str]:
+def _geometry_problems(parameters: Any, folder: Path) -> list[str]:
     """Describe a blade that cannot be made, or is of a size that no run can hold."""
+    from vasc.models.stem import StemVasculature
+
+    if isinstance(parameters, StemVasculature):
+        return []  # its own rules have judged its size
     if problems := size_problems(parameters):
         return problems
     if parameters.domain is None:

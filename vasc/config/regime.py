@@ -72,7 +72,9 @@ def regime(parameters: "LeafVenation") -> Regime:
     algorithm. MSc thesis, University of Calgary, sections 4.2.4 and 4.3.2.
     """
     found = Regime()
-    growth: Any = parameters.growth
+    growth: Any = getattr(parameters, "growth", None)
+    if growth is None:
+        return found
     if growth.kind == "marginal":
         _marginal(growth.length_per_step / parameters.extension.segment_length, found)
     elif growth.kind == "isogonic":

@@ -28,7 +28,11 @@ def models() -> Models:
     from vasc.models import MODELS
 
     growths = {**installed("vasc.growth"), **GROWTHS}
-    ours = {kind: with_growths(model, growths) for kind, model in MODELS.items()}
+    ours = {
+        # a stem has no growth to choose: what its apex leaves behind stays
+        kind: with_growths(model, growths) if "growth" in model.model_fields else model
+        for kind, model in MODELS.items()
+    }
     known = {**installed("vasc.models"), **ours}
     return {kind: with_drawing(model) for kind, model in known.items()}
 

@@ -1,10 +1,11 @@
-"""What grows: the leaf blade, its outline and where outlines come from."""
+"""What grows: the leaf blade, its outline and where outlines come from; the stem."""
 
 from vasc.domain.blade import Blade
 from vasc.domain.parameters import BladeParameters
 from vasc.domain.readers import read_outline
 from vasc.domain.seeds import SeedRowParameters
 from vasc.domain.shapes import SHAPES
+from vasc.domain.stem import StemParameters
 from vasc.domain.teeth import TeethParameters
 
 __all__ = [
@@ -12,6 +13,7 @@ __all__ = [
     "Blade",
     "BladeParameters",
     "SeedRowParameters",
+    "StemParameters",
     "TeethParameters",
     "read_outline",
 ]

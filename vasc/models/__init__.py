@@ -4,12 +4,14 @@ from vasc.models.areole import AreoleVenation
 from vasc.models.base import LeafVenation, Model, Venation
 from vasc.models.closed import ClosedVenation
 from vasc.models.open import OpenVenation
+from vasc.models.stem import StemVasculature
 from vasc.parameters import Parameters
 
 MODELS: dict[str, type[Parameters]] = {
     "open": OpenVenation,
     "closed": ClosedVenation,
     "areole": AreoleVenation,
+    "stem": StemVasculature,
 }
 """Configs of our models by kind; ``vasc.config`` knows installed ones, too."""
 
@@ -20,5 +22,6 @@ __all__ = [
     "LeafVenation",
     "Model",
     "OpenVenation",
+    "StemVasculature",
     "Venation",
 ]

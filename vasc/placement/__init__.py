@@ -5,6 +5,7 @@ from vasc.placement.darts import DartParameters, DartPlacement
 from vasc.placement.empty_circles import EmptyCircleParameters, EmptyCirclePlacement
 from vasc.placement.given import GivenParameters, GivenPlacement
 from vasc.placement.largest_blade import LargestBladePlacement
+from vasc.placement.primordia import Phyllotaxis, PhyllotaxisParameters
 
 __all__ = [
     "DartParameters",
@@ -15,5 +16,7 @@ __all__ = [
     "GivenPlacement",
     "LargestBladePlacement",
     "Moment",
+    "Phyllotaxis",
+    "PhyllotaxisParameters",
     "Placement",
 ]

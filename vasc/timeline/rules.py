@@ -204,10 +204,12 @@ def descent(record: Record) -> Findings:
     has_parent = parents != NULL
     is_bad = has_parent & (parents >= np.arange(len(parents)))
     yield from bad_rows("descent", "nodes/parent", is_bad, parents, "must be an earlier row")
-    # refinement may replace what a step has made, and veins grow from what it has replaced;
+    # refinement may replace what a step has made; veins grow from what it has replaced, and
+    # from a primordium, in the same step;
     # a source may be reached in the step that brought the vein near
     is_quick = np.isin(origins, [Origin.REFINEMENT, Origin.SOURCE])
-    is_quick |= has_parent & (origins[np.maximum(parents, 0)] == Origin.REFINEMENT)
+    quick_parents = [Origin.REFINEMENT, Origin.PRIMORDIUM]
+    is_quick |= has_parent & np.isin(origins[np.maximum(parents, 0)], quick_parents)
     margin = np.where(is_quick, 0, 1)
     is_bad = has_parent & (births[np.maximum(parents, 0)] + margin > births)
     yield from bad_rows("descent", "nodes/parent", is_bad, parents, "must be born earlier")

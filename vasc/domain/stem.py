@@ -1,0 +1,41 @@
+"""The stem: a cylinder whose apex leaves primordia behind as it rises."""
+
+import numpy as np
+from pydantic import model_validator
+
+from vasc.arrays import Floats
+from vasc.parameters import Parameters, quantity
+
+
+class StemParameters(Parameters):
+    """A cylinder, or a surface of revolution whose radius follows the height."""
+
+    radius: float | None = quantity("Radius of the stem (R).", unit="D", default=None, gt=0.0)
+    radii: list[tuple[float, float]] = quantity(
+        "Pairs [height, radius] of a stem whose apex changes its size: linear between them, instead"
+        " of radius.",
+        unit="D",
+        default=[],
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> "StemParameters":
+        """Require one of the two ways, ascending heights from 0 on, and radii above 0."""
+        if (self.radius is None) == (not self.radii):
+            raise ValueError("give either 'radius' or 'radii'")
+        heights = [height for height, _ in self.radii]
+        for row, (height, radius) in enumerate(self.radii):
+            if radius <= 0.0:
+                raise ValueError(f"radii[{row}] has the radius {radius:g}; it must be above 0")
+            if height <= (heights[row - 1] if row else -np.inf):
+                raise ValueError(f"radii[{row}] has the height {height:g}; heights must ascend")
+        if heights and heights[0] != 0.0:
+            raise ValueError(f"radii[0] has the height {heights[0]:g}; the first must be 0")
+        return self
+
+    def radius_at(self, heights: Floats) -> Floats:
+        """Give the radius of the stem at heights, in D."""
+        if self.radius is not None:
+            return np.full(len(heights), self.radius)
+        known = np.array(self.radii)
+        return np.asarray(np.interp(heights, known[:, 0], known[:, 1]), dtype=np.float64)
