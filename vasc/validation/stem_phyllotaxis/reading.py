@@ -33,7 +33,7 @@ def read_stem(timeline: Timeline) -> StemGraph:
     if not timeline.n_frames:
         raise TimelineError(f"{timeline.path}: holds no step")
     network = timeline.frame(-1).network
-    primordia = np.flatnonzero(network.origins == Origin.PRIMORDIUM)
+    primordia = np.flatnonzero(network.origins == Origin.PRIMORDIUM).astype(np.int32)
     placement: dict[str, Any] = timeline.config["placement"]
     rise, per_level = float(placement["rise"]), int(placement["per_level"])
     middle = network.positions[primordia[len(primordia) // 2], 2] if len(primordia) else 0.0
