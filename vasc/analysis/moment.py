@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
+from vasc.errors import VascError
 from vasc.network import VeinNetwork
 from vasc.sources import SourceSet
 
@@ -23,8 +24,8 @@ class Moment(Protocol):
         """Model time."""
 
     @property
-    def blade(self) -> Blade:
-        """The blade, in real size."""
+    def blade(self) -> Blade | None:
+        """The blade, in real size; None, or an error, where there is none."""
 
     @property
     def network(self) -> VeinNetwork:
@@ -33,3 +34,17 @@ class Moment(Protocol):
     @property
     def sources(self) -> SourceSet:
         """The live sources, in real size."""
+
+
+def blade_of(moment: Moment) -> Blade:
+    """Give the blade of a moment.
+
+    Raises
+    ------
+    VascError
+        If it has none, being one of a stem.
+    """
+    blade = moment.blade
+    if blade is None:
+        raise VascError("a stem has no blade")
+    return blade
