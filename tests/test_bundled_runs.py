@@ -16,6 +16,11 @@ NAMES = [config.name for config in bundled_configs()]
 FREE = {f"param-kill-distance-{letter}" for letter in "abc"}
 """Closed models whose kill distance is so long that no two veins come near a source."""
 
+WITHOUT_LOOPS = {*FREE, "forked-like"}
+"""In the latter veins end blindly from the first one on."""
+ROUNDING = 1e-6
+"""Veins that end on the margin may lie outside by less, in D."""
+
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_model_builds(name):
@@ -54,11 +59,12 @@ def test_the_whole_run_ends_as_it_should(name, tmp_path):
     positions = network.positions
     assert n_live == 0
     assert len(np.unique(positions, axis=0)) == len(positions)
-    assert blade.contains(positions[free_ends(network)]).all()
+    ends = positions[free_ends(network)]
+    assert (blade.contains(ends) | (blade.margin_distance(ends) < ROUNDING)).all()
     n_seeds = int((network.origins == Origin.SEED).sum())
     n_components, n_cycles = count_components(network), count_cycles(network)
     if experiment.kind == "open":
         assert (n_components, n_cycles) == (n_seeds, 0)
     else:
         assert n_components <= n_seeds
-        assert n_cycles == 0 if name in FREE else n_cycles > 0
+        assert n_cycles == 0 if name in WITHOUT_LOOPS else n_cycles > 0

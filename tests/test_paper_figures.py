@@ -12,7 +12,8 @@ import pytest
 
 FOLDER = Path(__file__).resolve().parent.parent / "paper_figures"
 SCRIPTS = sorted(FOLDER.glob("*/fig_*.py"))
-FAST = ["3_2", "3_3", "3_4", "3_5", "4_10", "4_11", "4_12", "4_13", "5_2"]
+FAST = ["3_2", "3_3", "3_4", "3_5", "4_10", "4_11", "4_12", "4_13"]
+FAST += ["5_2", "5_3", "5_5", "5_6", "5_9"]
 SLOW = [path.stem.removeprefix("fig_") for path in SCRIPTS]
 SLOW = [number for number in SLOW if number not in FAST]
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vasc.areoles import AREOLE_COLUMNS, BOUNDARY_COLUMNS, AreoleSet, areoles_from_columns
 from vasc.arrays import Columns, Ids, Points, Table
+from vasc.canals import CANAL_TABLES, CanalSet, canals_from_columns
 from vasc.domain import Blade
 from vasc.events import EVENT_COLUMNS, EventKind
 from vasc.network import NODE_COLUMNS, SEGMENT_COLUMNS, VeinNetwork
@@ -182,6 +183,15 @@ class State:
             {name: self.rows("events", name) for name in ("kind", "subject")},
             self.positions("nodes"),
         )
+
+    @cached_property
+    def canals(self) -> CanalSet:
+        """The canals at this step; none in a model without strands."""
+        tables = {
+            table: {name: self.rows(table, name) for name in columns}
+            for table, columns in CANAL_TABLES.items()
+        }
+        return canals_from_columns(tables, self.positions("sources"))
 
 
 def positions(

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 import shapely
 
+from vasc.canals import NO_CANALS, CanalSet
 from vasc.network import Origin, SegmentKind, VeinNetwork
 from vasc.sources import SourceSet
 
@@ -97,6 +98,7 @@ class PlainMoment:
     sources: SourceSet
     step: int = 7
     time: float = 7.0
+    canals: CanalSet = NO_CANALS
 
 
 def sources(points=(), states=()):

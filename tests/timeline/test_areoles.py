@@ -54,6 +54,20 @@ def test_every_frame_has_the_areoles_of_the_state(recorded):
     assert shown[-1].n_areoles > 5
 
 
+def test_a_frame_has_the_canals_of_the_state(tmp_path):
+    streams, shown = Streams(SEED, NAMES), []
+    with create(tmp_path / "run.h5", motion=Motion.EXPLICIT) as recorder:
+        for state in ExplicitRun(LAST).states(streams):
+            recorder.observe(state, streams)
+            shown.append(state.canals)
+    with Timeline(tmp_path / "run.h5") as timeline:
+        for step, expected in enumerate(shown):
+            canals = timeline.frame(step).canals
+            for name in vars(expected):
+                assert np.array_equal(getattr(canals, name), getattr(expected, name)), name
+    assert shown[-1].n_canals > 5
+
+
 def test_areas_are_those_of_the_boundaries_at_that_step(recorded):
     with Timeline(recorded[0]) as timeline:
         frame = timeline.frame(LAST - 1)

@@ -16,7 +16,8 @@ class Elongation:
     The width of a node increases in proportion to the elongation of the segments
     that contain it: w becomes w (1 + kappa (l' / l - 1)), where l and l' are the
     lengths of these segments together before and after a step of growth. Nodes
-    begin with the width 1; those that refinement adds inherit that of their parent.
+    begin with the width 1; those that refinement adds inherit that of the node they
+    replace, or of the thinner end of the segment they halve.
 
     Parameters
     ----------
@@ -64,10 +65,22 @@ class Elongation:
         widths[:n_known] = self.widths
         is_refined = network.origins == Origin.REFINEMENT
         is_refined[:n_known] = False
+        thinner = self._thinner_ends(network)
         # a parent may be as new: rows are in the order of birth
+        is_replacing = np.isin(network.parents, network.retired)
         for node in np.flatnonzero(is_refined).tolist():
-            widths[node] = widths[network.parents[node]]
+            inherited = widths[network.parents[node]]
+            widths[node] = inherited if is_replacing[node] else min(inherited, thinner[node])
         self.widths = widths
+
+    def _thinner_ends(self, network: VeinNetwork) -> Floats:
+        """Give for every node the width of its thinnest neighbour that is not new."""
+        known = np.full(network.n_nodes, np.inf)
+        known[: len(self.widths)] = self.widths
+        thinner = np.full(network.n_nodes, np.inf)
+        for near, far in (network.segments.T, network.segments.T[::-1]):
+            np.minimum.at(thinner, near, known[far])
+        return thinner
 
 
 def stretched_pipes(network: VeinNetwork, widths: Floats, exponent: float) -> Pipes:

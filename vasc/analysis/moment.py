@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
+from vasc.canals import CanalSet
 from vasc.errors import VascError
 from vasc.network import VeinNetwork
 from vasc.sources import SourceSet
@@ -34,6 +35,10 @@ class Moment(Protocol):
     @property
     def sources(self) -> SourceSet:
         """The live sources, in real size."""
+
+    @property
+    def canals(self) -> CanalSet:
+        """The canals, in real size."""
 
 
 def blade_of(moment: Moment) -> Blade:

@@ -84,7 +84,7 @@ class CanalPerception(Perception[Canals]):
         nearer to the base.
     """
 
-    def __init__(self, canals: Canals, tie: float, lean: float) -> None:
+    def __init__(self, canals: Canals, tie: float, lean: float = 0.0) -> None:
         self.canals = canals
         self.tie = tie
         self.lean = lean

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vasc.analysis.widths import WidthParameters
 from vasc.errors import OutputError, VascError
 from vasc.render.files import checked_output, node_widths, open_run, widths_of
-from vasc.render.leaf import draw_leaf, fitted_widths, view_of
+from vasc.render.leaf import draw_leaf, fitted_widths, narrowest_of, view_of
 from vasc.render.styles import DPI, LeafStyle
 
 if TYPE_CHECKING:
@@ -104,7 +104,8 @@ def animate(
     write = _write_mp4 if output.suffix.lower() == ".mp4" else _write_gif
     with open_run(run) as timeline:
         last = timeline.frame(-1)
-        view = view_of(last.blade, style, side=film.pixels / DPI)
+        narrowest = narrowest_of(last, color)
+        view = view_of(last.blade, style, side=film.pixels / DPI, narrowest=narrowest)
         steps = chosen_steps(last.step, film.n_pictures, every)
         asked = widths or widths_of(timeline)
         stretched = node_widths(timeline, asked, steps)

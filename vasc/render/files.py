@@ -13,7 +13,15 @@ from vasc.analysis.widths import WidthParameters
 from vasc.arrays import Floats
 from vasc.errors import OutputError, VascError
 from vasc.render.keys import size_in_points
-from vasc.render.leaf import View, draw_leaf, fitted_widths, view_at, view_of
+from vasc.render.leaf import (
+    NARROWEST,
+    View,
+    draw_leaf,
+    fitted_widths,
+    narrowest_of,
+    view_at,
+    view_of,
+)
 from vasc.render.styles import DPI, INK, TEXT_SIZE, LeafStyle
 
 if TYPE_CHECKING:
@@ -93,7 +101,7 @@ def render(
         frames = [timeline.frame(at) for at in ([step] if steps is None else steps)]
         if not frames:
             raise VascError("steps: expected at least one step, got none")
-        views = _views(frames, style, pixels / DPI)
+        views = _views(frames, style, pixels / DPI, narrowest_of(frames[-1], color))
         stretched = node_widths(timeline, widths, [frame.step for frame in frames])
         last = frames[-1]
         widths = fitted_widths(last, widths, style, views[-1], stretched.get(last.step))
@@ -218,10 +226,15 @@ def node_widths(
     return found
 
 
-def _views(frames: Sequence[Frame], style: LeafStyle, side: float) -> list[View]:
+def _views(frames: Sequence[Frame], style: LeafStyle, side: float, last_width: float) -> list[View]:
     """Give views of one scale, at which the largest blade has the side asked for."""
     scale = min(view_of(frame.blade, style, side=side).points_per_length for frame in frames)
-    views = [view_at(frame.blade, style, scale) for frame in frames]
+    # the last leaf is the one with the key
+    widths = [NARROWEST] * (len(frames) - 1) + [last_width]
+    views = [
+        view_at(frame.blade, style, scale, narrowest=width)
+        for frame, width in zip(frames, widths, strict=True)
+    ]
     if len(views) == 1:
         return views
     # the places where the leaves are attached stand on one line, and steps are written above

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from vasc.render.looks import Key, gradient
-from vasc.render.styles import CORNER, INK, TEXT_SIZE
+from vasc.render.looks import gradient
+from vasc.render.styles import CORNER, INK, TEXT_SIZE, Key, Mark
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 SWATCH_HEIGHT = 5.0
+DASH_WIDTH = 14.0
 GRADIENT_WIDTH = 70.0
 N_CELLS = 64
 GAP = 3.0
@@ -55,15 +56,56 @@ def _draw_gradient(axes: Axes, key: Key) -> None:
     _write(axes, left - GAP, f"{key.title} {first}", "right")
 
 
+def key_width(key: Key) -> float:
+    """Give the width of a key in one line, in pt."""
+    if key.is_gradient or not key.title:
+        return 0.0
+    marks = key.marks or (Mark.SQUARE,) * len(key.labels)
+    widths = [_mark_width(mark) for mark in marks] + [_text_width(text) for text in key.labels]
+    return 2.0 * CORNER + sum(widths) + 3.0 * GAP * len(marks) + _text_width(key.title)
+
+
 def _draw_swatches(axes: Axes, key: Key) -> None:
-    """Draw a small square before every label, from the right to the left."""
+    """Draw a small mark before every label, from the right to the left."""
     right = size_in_points(axes)[0] - CORNER
-    for label, color in zip(reversed(key.labels), reversed(key.colors), strict=True):
-        left = right - _text_width(label) - GAP - SWATCH_HEIGHT
-        _fill(axes, left, SWATCH_HEIGHT, color)
-        _write(axes, left + SWATCH_HEIGHT + GAP, label, "left")
+    marks = key.marks or (Mark.SQUARE,) * len(key.labels)
+    for label, color, mark in reversed(list(zip(key.labels, key.colors, marks, strict=True))):
+        left = right - _text_width(label) - GAP - _mark_width(mark)
+        if mark == Mark.SQUARE:
+            _fill(axes, left, SWATCH_HEIGHT, color)
+        else:
+            _mark(axes, left, mark, color)
+        _write(axes, left + _mark_width(mark) + GAP, label, "left")
         right = left - 2.0 * GAP
     _write(axes, right, key.title, "right")
+
+
+def _mark_width(mark: Mark) -> float:
+    """Give the width of a mark, in pt."""
+    return DASH_WIDTH if mark == Mark.DASH else SWATCH_HEIGHT
+
+
+def _mark(axes: Axes, left: float, mark: Mark, color: str) -> None:
+    """Draw a dashed line, a disc or a ring; its left end in pt."""
+    width, height = size_in_points(axes)
+    y = (CORNER + SWATCH_HEIGHT / 2.0) / height
+    if mark == Mark.DASH:
+        x = [left / width, (left + DASH_WIDTH) / width]
+        (line,) = axes.plot(x, [y, y], color=color, transform=axes.transAxes, zorder=5.0)
+        line.set(linestyle=(0.0, (2.5, 1.8)), linewidth=0.9)
+        return
+    axes.plot(
+        [(left + SWATCH_HEIGHT / 2.0) / width],
+        [y],
+        linestyle="none",
+        marker="o",
+        markersize=SWATCH_HEIGHT,
+        markerfacecolor=color if mark == Mark.DISC else "white",
+        markeredgecolor=color,
+        markeredgewidth=0.8,
+        transform=axes.transAxes,
+        zorder=5.0,
+    )
 
 
 def _text_width(text: str) -> float:

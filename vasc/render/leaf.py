@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,7 +15,8 @@ from vasc.analysis.moment import Moment, blade_of
 from vasc.analysis.units import LengthUnit
 from vasc.analysis.widths import Pipes, WidthParameters, pipes, radii
 from vasc.arrays import Floats
-from vasc.render.keys import draw_key, size_in_points
+from vasc.render.differentiation import SOURCE_SIZE, STRAND_WIDTH, draw_canals, state_key
+from vasc.render.keys import draw_key, key_width, size_in_points
 from vasc.render.looks import Coloring, Paint, Scale, color_segments, fit_widths, width_classes
 from vasc.render.strokes import string_together
 from vasc.render.styles import STRIP, LeafStyle
@@ -31,6 +32,8 @@ SIDE = 8.0
 """Longer side of a picture, in inches: 1600 pixels at 200 pixels per inch."""
 NARROWEST = 1.2
 """Shorter side at least, in inches, so that a scale bar fits under a grass leaf."""
+BAR_ROOM = 60.0
+"""Width kept free for the scale bar beside a key, in pt."""
 MAX_VECTORS = 600_000
 """Points of veins beyond which they are pixels even in an svg or pdf."""
 
@@ -58,7 +61,14 @@ class View:
         return (right - left) * scale, (top - bottom) * scale
 
 
-def view_of(blade: Blade, style: LeafStyle, *, side: float = SIDE, with_strip: bool = True) -> View:
+def view_of(
+    blade: Blade,
+    style: LeafStyle,
+    *,
+    side: float = SIDE,
+    with_strip: bool = True,
+    narrowest: float = NARROWEST,
+) -> View:
     """Give a view that holds a whole blade.
 
     Parameters
@@ -71,6 +81,8 @@ def view_of(blade: Blade, style: LeafStyle, *, side: float = SIDE, with_strip: b
         Longer side of the picture, in inches.
     with_strip : bool
         Whether to keep a strip free under the blade, for scale bar and key.
+    narrowest : float
+        Width at least, in inches.
 
     Returns
     -------
@@ -79,11 +91,16 @@ def view_of(blade: Blade, style: LeafStyle, *, side: float = SIDE, with_strip: b
     width, height = _padded(blade, style)[2:]
     strip = STRIP if with_strip else 0.0
     scale = min(72.0 * side / width, (72.0 * side - strip) / height)
-    return view_at(blade, style, scale, with_strip=with_strip)
+    return view_at(blade, style, scale, with_strip=with_strip, narrowest=narrowest)
 
 
 def view_at(
-    blade: Blade, style: LeafStyle, points_per_length: float, *, with_strip: bool = True
+    blade: Blade,
+    style: LeafStyle,
+    points_per_length: float,
+    *,
+    with_strip: bool = True,
+    narrowest: float = NARROWEST,
 ) -> View:
     """Give a view of a whole blade at a given scale.
 
@@ -97,6 +114,8 @@ def view_at(
         Scale, pt per D.
     with_strip : bool
         Whether to keep a strip free under the blade, for scale bar and key.
+    narrowest : float
+        Width at least, in inches.
 
     Returns
     -------
@@ -104,9 +123,8 @@ def view_at(
     """
     x, y, width, height = _padded(blade, style)
     strip = (STRIP if with_strip else 0.0) / points_per_length
-    narrowest = 72.0 * NARROWEST / points_per_length
-    half_width = max(width, narrowest) / 2.0
-    half_height = max(height, narrowest - strip) / 2.0
+    half_width = max(width, 72.0 * narrowest / points_per_length) / 2.0
+    half_height = max(height, 72.0 * NARROWEST / points_per_length - strip) / 2.0
     box = (x - half_width, y - half_height - strip, x + half_width, y + half_height)
     return View(box, points_per_length)
 
@@ -171,7 +189,9 @@ def draw_leaf(
     style = LeafStyle() if style is None else style
     has_strip = scale_bar or (key and color not in ("width", "source"))
     if ax is None:
-        view = view_of(blade_of(moment), style, with_strip=has_strip) if view is None else view
+        if view is None:
+            narrowest = narrowest_of(moment, color)
+            view = view_of(blade_of(moment), style, with_strip=has_strip, narrowest=narrowest)
         ax = _new_axes(view, style)
     elif view is None:
         view = _view_on(ax, blade_of(moment), style, has_strip)
@@ -180,7 +200,12 @@ def draw_leaf(
     ax.set_axis_off()
     draw_blade(ax, blade_of(moment), style)
     painted = Paint(color, style, moment.step if last_step is None else last_step)
+    if color == "state":
+        painted = replace(painted, canals=moment.canals)
     coloring = _draw_veins(ax, moment, view, painted, widths or WidthParameters(), node_widths)
+    if painted.canals.n_canals:
+        draw_canals(ax, moment)
+        style, sources = replace(style, source_size=SOURCE_SIZE), True
     if sources:
         draw_sources(ax, moment.sources, style, view.points_per_length)
     if scale_bar:
@@ -190,6 +215,13 @@ def draw_leaf(
     figure = ax.get_figure(root=True)
     assert figure is not None
     return figure
+
+
+def narrowest_of(moment: Moment, color: str) -> float:
+    """Give the width of a picture at least, in inches, so that its key fits under the leaf."""
+    if color != "state":
+        return NARROWEST
+    return max(NARROWEST, (key_width(state_key(moment.canals)) + BAR_ROOM) / 72.0)
 
 
 def fitted_widths(
@@ -280,6 +312,9 @@ def _draw_veins(
     fitted = _fit(moment, counted, widths, paint.style, view)
     most = float(counted.nodes.max(initial=1.0))
     lines = 2.0 * view.points_per_length * radii(counted.segments, fitted, most)
+    if paint.color == "state":
+        is_under_way = coloring.classes > 0
+        lines[is_under_way] = np.maximum(lines[is_under_way], STRAND_WIDTH)
     classes, class_widths = width_classes(lines, paint.style.n_classes)
     looks = classes * len(coloring.palette) + coloring.classes
     _add_strokes(ax, moment, directions, looks, class_widths, coloring)

@@ -10,8 +10,10 @@ from vasc.analysis.ancestry import Descent, grown_nodes
 from vasc.analysis.branches import branch_orders
 from vasc.analysis.widths import Pipes, WidthParameters
 from vasc.arrays import NULL, Floats
+from vasc.canals import NO_CANALS, CanalSet
 from vasc.errors import VascError
 from vasc.network import SegmentKind, VeinNetwork
+from vasc.render.differentiation import segment_states, state_key
 from vasc.render.styles import (
     AGE_COLORS,
     COLOR_CHOICES,
@@ -19,6 +21,7 @@ from vasc.render.styles import (
     ORDER_COLORS,
     SOURCE_COLORS,
     STATE_COLORS,
+    Key,
     LeafStyle,
 )
 
@@ -45,28 +48,6 @@ class Scale:
 
 
 @dataclass(frozen=True)
-class Key:
-    """What the colours of a picture mean.
-
-    Parameters
-    ----------
-    title : str
-        What is coloured; empty if there is nothing to explain.
-    labels : tuple of str
-        Meanings, one for every colour; for a gradient its first and last.
-    colors : tuple of str
-        Colours in the same order.
-    is_gradient : bool
-        Whether the colours run into each other.
-    """
-
-    title: str = ""
-    labels: tuple[str, ...] = ()
-    colors: tuple[str, ...] = ()
-    is_gradient: bool = False
-
-
-@dataclass(frozen=True)
 class Paint:
     """What the colours of a picture are to tell.
 
@@ -80,11 +61,14 @@ class Paint:
         The colour of plain veins.
     last_step : int
         The step that the colour of the youngest veins stands for.
+    canals : CanalSet
+        The canals, whose states tell those of the strands.
     """
 
     color: str
     style: LeafStyle
     last_step: int
+    canals: CanalSet = NO_CANALS
 
 
 @dataclass(frozen=True)
@@ -212,9 +196,8 @@ def color_segments(
         key = Key("segment", tuple(names[k] for k in shown), tuple(colors[k] for k in shown))
         return Coloring(network.segment_kinds.astype(np.int64), colors, key)
     if color == "state":
-        colors = tuple(STATE_COLORS.values())
-        classes = np.zeros(network.n_segments, dtype=np.int64)
-        return Coloring(classes, colors, Key("state", tuple(STATE_COLORS), colors))
+        states = segment_states(paint.canals, directions)
+        return Coloring(states, tuple(STATE_COLORS.values()), state_key(paint.canals))
     raise VascError(f"color: {color!r} is not one of {', '.join(COLOR_CHOICES)}")
 
 

@@ -1,6 +1,7 @@
 """How a leaf is drawn: colours, line widths and sizes, with their reasons."""
 
 from dataclasses import dataclass
+from enum import Enum
 from typing import Literal, get_args
 
 ColorBy = Literal["width", "order", "age", "source", "kind", "state"]
@@ -35,10 +36,50 @@ SOURCE_COLORS = (
 """Colours that veins take in turn by the number of the source that caused them."""
 
 KIND_COLORS = {"extension": "#23401f", "join": "#c8102e", "refinement": "#5c8a54"}
-STATE_COLORS = {"vein": "#23401f"}
+STATE_COLORS = {
+    "vein": "#23401f",
+    "inbound": "#e07b00",
+    "outbound": "#2166ac",
+    "pre-pattern": "#8e44ad",
+    "arrested": "#23401f",
+}
 SOURCE_STATE_COLORS = {"active": "#c8102e", "tagged": "#f08a24"}
 AGE_COLORS = ("#16215b", "#5a2a82", "#a02c74", "#d64a4b", "#ef8a1d")
 """From the oldest vein to the youngest."""
+
+
+class Mark(Enum):
+    """How a key shows what it explains."""
+
+    SQUARE = "square"
+    DASH = "dash"
+    DISC = "disc"
+    RING = "ring"
+
+
+@dataclass(frozen=True)
+class Key:
+    """What the colours of a picture mean.
+
+    Parameters
+    ----------
+    title : str
+        What is coloured; empty if there is nothing to explain.
+    labels : tuple of str
+        Meanings, one for every colour; for a gradient its first and last.
+    colors : tuple of str
+        Colours in the same order.
+    is_gradient : bool
+        Whether the colours run into each other.
+    marks : tuple of Mark
+        What is drawn before every label; squares if left out.
+    """
+
+    title: str = ""
+    labels: tuple[str, ...] = ()
+    colors: tuple[str, ...] = ()
+    is_gradient: bool = False
+    marks: tuple[Mark, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vasc.areoles import AREOLE_COLUMNS, BOUNDARY_COLUMNS, AreoleSet, areoles_from_columns
 from vasc.arrays import Points
+from vasc.canals import CANAL_TABLES, CanalSet, canals_from_columns
 from vasc.domain import Blade
 from vasc.errors import TimelineError, VascError
 from vasc.network import NODE_COLUMNS, Origin, SegmentKind, VeinNetwork
@@ -145,6 +146,15 @@ class Frame:
             {name: self.rows("events", name) for name in ("kind", "subject")},
             self.positions,
         )
+
+    @cached_property
+    def canals(self) -> CanalSet:
+        """The canals at this step; none in a model without strands."""
+        tables = {
+            table: {name: self.rows(table, name) for name in columns}
+            for table, columns in CANAL_TABLES.items()
+        }
+        return canals_from_columns(tables, self._positions("sources"))
 
     def to_networkx(self) -> Any:
         """Give the vein network as a ``networkx.Graph``.
