@@ -14,6 +14,7 @@ from vasc.validation.stem_phyllotaxis import check_connectivity
 from vasc.validation.stem_phyllotaxis.reading import read_stem
 from vasc.validation.stem_references import STEM_PATTERNS
 from vasc.validation.stem_suite import config_of, grown, validate_stem
+from vasc.validation.stem_transitions import swept_stem, thresholds
 
 STEM = """kind = "stem"
 
@@ -78,7 +79,7 @@ def test_the_command_line_tells_the_pair(path, capsys):
 
 def test_a_suite_that_is_none_is_refused(capsys):
     assert main(["validate", "roots"]) == 2
-    assert "must be one of growth, stem" in capsys.readouterr().err
+    assert "must be one of growth, stem, transitions" in capsys.readouterr().err
 
 
 def test_veins_along_the_surface_fail(path):
@@ -95,3 +96,19 @@ def test_the_stems_of_the_thesis_connect_as_it_says():
     suite = validate_stem()
     assert len(suite["checks"]) == 14
     assert [check["name"] for check in suite["checks"] if not check["pass"]] == []
+
+
+def test_one_stem_of_the_sweep_connects_as_predicted():
+    stem = swept_stem(137.5, 1.2)
+    assert stem.pair == stem.predicted == (1, 1)
+    assert stem.fraction == 1.0
+    found = [(one["low"], one["pair"]) for one in thresholds(137.5)]
+    assert found[2] == (pytest.approx(1.724, abs=0.001), [2, 3])
+
+
+@pytest.mark.slow
+def test_the_sweep_over_radius_and_rise_finds_the_predicted_pairs(tmp_path, capsys):
+    picture = tmp_path / "transitions.png"
+    assert main(["validate", "transitions", "-o", str(picture)]) == 0
+    assert picture.stat().st_size > 10_000
+    assert capsys.readouterr().out.count("pass") == 27

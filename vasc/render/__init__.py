@@ -6,6 +6,7 @@ from vasc.render.growth import GrownGrid, GrowthMap, draw_growth
 from vasc.render.leaf import draw_leaf
 from vasc.render.sequence import draw_sequence
 from vasc.render.styles import COLOR_CHOICES, LeafStyle
+from vasc.render.transitions import draw_transitions
 
 __all__ = [
     "COLOR_CHOICES",
@@ -19,6 +20,7 @@ __all__ = [
     "draw_growth",
     "draw_leaf",
     "draw_sequence",
+    "draw_transitions",
     "render",
     "save",
 ]

@@ -254,4 +254,4 @@ def _not_excluded(
     onward = lattice.distances(candidates[:, None] - rivals, metric)
     is_near = (lattice.distances(rivals, metric) < lengths) & (onward < lengths)
     is_between: Mask = is_near & (onward > TIE * lengths)
-    return ~is_between.any(axis=1)
+    return np.asarray(~is_between.any(axis=1), dtype=np.bool_)
