@@ -312,7 +312,8 @@ def test_arrays_that_make_no_stem_are_refused(change, words):
 @pytest.mark.slow
 @pytest.mark.parametrize("pattern", STEM_PATTERNS, ids=str)
 def test_every_stem_of_the_thesis(pattern):
-    n_primordia = 3 * pattern.pair[1] + 40
+    # near a threshold links among the last primordia settle late
+    n_primordia = 3 * pattern.pair[1] + (37 if pattern.pair == (2, 3) else 24)
     veins = grow_stem(
         pattern.divergence, pattern.radius, pattern.rise, n_primordia, pattern.plastochron
     )
@@ -320,3 +321,30 @@ def test_every_stem_of_the_thesis(pattern):
     assert report.pair == pattern.pair
     assert report.fraction >= pattern.least_fraction
     assert report.passed
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("divergence", "radius", "pair", "plastochron"),
+    [
+        (137.5, 28.0, (2, 3), 5),
+        (137.5, 28.0, (2, 3), 10),
+        (77.96, 30.0, (1, 4), 5),
+        (151.14, 45.0, (2, 5), 5),
+        (64.08, 38.0, (1, 5), 5),
+    ],
+)
+def test_stems_that_no_paper_shows(divergence, radius, pair, plastochron):
+    veins = grow_stem(divergence, radius, 10.0, 3 * pair[1] + 24, plastochron)
+    report = check_connectivity(as_graph(veins, divergence, radius))
+    # far from both thresholds
+    assert report.interval.margin(radius / 10.0) > 0.2
+    assert report.pair == report.prediction.pair == pair
+    assert report.fraction == 1.0
+
+
+def test_the_reference_grows_as_many_nodes_as_other_programs():
+    # counts of other programs of the same rules, allowed to differ by a hundredth
+    positions, segments, _, _ = grow_stem(137.5, 16.0, 10.0, 30, 5)
+    assert len(positions) == pytest.approx(1294, rel=0.01)
+    assert len(segments) == pytest.approx(1351, rel=0.01)

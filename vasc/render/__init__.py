@@ -7,6 +7,7 @@ from vasc.render.leaf import draw_leaf
 from vasc.render.sequence import draw_sequence
 from vasc.render.styles import COLOR_CHOICES, LeafStyle
 from vasc.render.transitions import draw_transitions
+from vasc.render.unrolled import UnrolledStyle, draw_unrolled
 
 __all__ = [
     "COLOR_CHOICES",
@@ -16,11 +17,13 @@ __all__ = [
     "GrownGrid",
     "GrowthMap",
     "LeafStyle",
+    "UnrolledStyle",
     "animate",
     "draw_growth",
     "draw_leaf",
     "draw_sequence",
     "draw_transitions",
+    "draw_unrolled",
     "render",
     "save",
 ]
