@@ -27,20 +27,30 @@ def squares(point, others):
 def neighbors(x, nodes):
     """Give the relative neighbours of node x: none is nearer to both than they are."""
     to_x = squares(nodes[x], nodes)
-    order = np.argsort(to_x, kind="stable")
-    others = order[order != x]
-    left = others
-    for u in others[:N_RULERS]:
-        limit = (1 - TIE) * to_x[left]
-        left = left[~((to_x[u] < limit) & (squares(nodes[u], nodes[left]) < limit))]
-    found = []
-    for v in left.tolist():
-        limit = (1 - TIE) * to_x[v]
-        between = (to_x < limit) & (squares(nodes[v], nodes) < limit)
-        between[[x, v]] = False
-        if not between.any():
-            found.append(v)
-    return found
+    left = np.argsort(to_x, kind="stable")
+    left = left[left != x]
+    # near ones and those left rule out most of the others before the comparison with all
+    for u in left[:N_RULERS].tolist():
+        left = ruled(u, left, nodes, to_x)
+    row = 0
+    while row < len(left):
+        left = ruled(left[row], left, nodes, to_x)
+        row += 1
+    return [v for v in left.tolist() if not excluded(x, v, nodes, to_x)]
+
+
+def ruled(u, others, nodes, to_x):
+    """Give those of others that u does not exclude."""
+    limit = (1 - TIE) * to_x[others]
+    return others[~((to_x[u] < limit) & (squares(nodes[u], nodes[others]) < limit))]
+
+
+def excluded(x, v, nodes, to_x):
+    """Tell whether any node excludes v: it is nearer to x and to v than they are."""
+    limit = (1 - TIE) * to_x[v]
+    between = (to_x < limit) & (squares(nodes[v], nodes) < limit)
+    between[[x, v]] = False
+    return between.any()
 
 
 @dataclass

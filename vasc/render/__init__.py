@@ -6,6 +6,7 @@ from vasc.render.growth import GrownGrid, GrowthMap, draw_growth
 from vasc.render.leaf import draw_leaf
 from vasc.render.sequence import draw_sequence
 from vasc.render.styles import COLOR_CHOICES, LeafStyle
+from vasc.render.unrolled import UnrolledStyle, draw_unrolled
 
 __all__ = [
     "COLOR_CHOICES",
@@ -15,10 +16,12 @@ __all__ = [
     "GrownGrid",
     "GrowthMap",
     "LeafStyle",
+    "UnrolledStyle",
     "animate",
     "draw_growth",
     "draw_leaf",
     "draw_sequence",
+    "draw_unrolled",
     "render",
     "save",
 ]

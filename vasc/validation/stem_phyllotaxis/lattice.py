@@ -81,15 +81,16 @@ class PrimordiumLattice:
 
         Parameters
         ----------
-        separations : ndarray of shape (n, 2), int64
-            Rows (levels up, members on).
+        separations : ndarray of shape (..., 2), int64
+            (levels up, members on), along the last axis.
 
         Returns
         -------
-        ndarray of shape (n,), float64
+        ndarray of shape (...), float64
             Within (-pi, pi].
         """
-        turns = separations[:, 0] * self.divergence + separations[:, 1] * 2.0 * pi / self.per_level
+        levels, members = separations[..., 0], separations[..., 1]
+        turns = levels * self.divergence + members * 2.0 * pi / self.per_level
         return pi - (pi - turns) % (2.0 * pi)
 
     def distances(self, separations: Separations, metric: Metric = "chord") -> Floats:
@@ -97,19 +98,19 @@ class PrimordiumLattice:
 
         Parameters
         ----------
-        separations : ndarray of shape (n, 2), int64
-            Rows (levels up, members on).
+        separations : ndarray of shape (..., 2), int64
+            (levels up, members on), along the last axis.
         metric : {"chord", "arc"}
             Straight through the stem, or along its surface.
 
         Returns
         -------
-        ndarray of shape (n,), float64
+        ndarray of shape (...), float64
             In D.
         """
         angles = self.angles(separations)
         across = angles if metric == "arc" else 2.0 * np.sin(angles / 2.0)
-        return np.hypot(self.radius * across, separations[:, 0] * self.rise)
+        return np.hypot(self.radius * across, separations[..., 0] * self.rise)
 
     def code(self, separations: Separations) -> NDArray[np.int64]:
         """Give the step of each separation: how much further up the order of birth it leads.
@@ -248,13 +249,9 @@ def _not_excluded(
     slack: float,
 ) -> Mask:
     """Tell which candidates have no rival that is nearer to both of their ends."""
-    lengths = lattice.distances(candidates, metric)
-    to_rivals = lattice.distances(rivals, metric)
-    is_left = np.ones(len(candidates), dtype=bool)
-    for row, candidate in enumerate(candidates):
-        near = rivals[to_rivals < slack * lengths[row]]
-        onward = lattice.distances(candidate - near, metric)
-        # a rival at the same place is the candidate itself
-        is_between = (onward < slack * lengths[row]) & (onward > TIE * lengths[row])
-        is_left[row] = not is_between.any()
+    lengths = slack * lattice.distances(candidates, metric)[:, None]
+    # rows: candidates, columns: rivals; a rival at the same place is the candidate itself
+    onward = lattice.distances(candidates[:, None] - rivals, metric)
+    is_near = (lattice.distances(rivals, metric) < lengths) & (onward < lengths)
+    is_left: Mask = ~(is_near & (onward > TIE * lengths)).any(axis=1)
     return is_left

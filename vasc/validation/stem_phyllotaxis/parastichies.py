@@ -64,7 +64,7 @@ def contact_parastichies(lattice: PrimordiumLattice) -> ContactParastichies:
     >>> found = contact_parastichies(PrimordiumLattice(np.radians(137.5), 10.0, 115.0))
     >>> found.numbers, found.is_opposed
     ((5, 8), True)
-    >>> contact_parastichies(PrimordiumLattice(np.pi / 2, 10.0, 20.0, per_level=2)).numbers
+    >>> contact_parastichies(PrimordiumLattice(np.pi / 2, 10.0, 10.0, per_level=2)).numbers
     (2, 2)
     """
     part = 2.0 * pi / lattice.per_level

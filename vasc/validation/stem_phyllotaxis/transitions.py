@@ -17,6 +17,8 @@ from vasc.validation.stem_phyllotaxis.lattice import (
 
 NARROW = 1e-6
 """Brackets of a threshold are halved to this share of it; far wider than a tie."""
+SLIVER = 1e-5
+"""Patterns that hold over a smaller share of the ratio are none."""
 STRIDE = 0.01
 """Patterns are looked for at ratios that differ by this share."""
 
@@ -81,7 +83,7 @@ def crossing(
     Examples
     --------
     >>> round(crossing(3, 8, np.radians(137.5)), 3)
-    9.117
+    9.116
     """
     lattice = PrimordiumLattice(divergence, rise=1.0, radius=1.0, per_level=per_level)
     separations = np.array([divmod(step, per_level), divmod(other, per_level)])
@@ -131,9 +133,9 @@ def intervals(
     >>> for one in intervals(np.radians(99.5), high=10.0):
     ...     print(one.pair, round(one.low, 3), round(one.high, 3))
     (1, 1) 0.0 1.326
-    (1, 3) 1.326 2.806
-    (3, 4) 2.806 6.744
-    (4, 7) 6.744 inf
+    (1, 3) 1.326 2.805
+    (3, 4) 2.805 6.743
+    (4, 7) 6.743 inf
     """
     if not 0.0 < low < high < inf:
         raise VascError(f"ratios: expected 0 < low < high, got {low} and {high}")
@@ -149,6 +151,9 @@ def intervals(
         ratios[:-1], ratios[1:], patterns[:-1], patterns[1:], strict=True
     ):
         for ratio, new in _changes(pattern, left, right, before, after):
+            # what holds over no range is a tie of the steps that change places
+            if ratio < found[-1][0] * (1.0 + SLIVER):
+                ratio = found.pop()[0]
             found.append((ratio, new))
     ends = [start for start, _ in found[1:]] + [inf]
     return tuple(
