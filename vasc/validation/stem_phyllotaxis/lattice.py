@@ -253,5 +253,5 @@ def _not_excluded(
     # rows: candidates, columns: rivals; a rival at the same place is the candidate itself
     onward = lattice.distances(candidates[:, None] - rivals, metric)
     is_near = (lattice.distances(rivals, metric) < lengths) & (onward < lengths)
-    is_left: Mask = ~(is_near & (onward > TIE * lengths)).any(axis=1)
-    return is_left
+    is_between = (is_near & (onward > TIE * lengths)).any(axis=1)
+    return np.logical_not(is_between)
