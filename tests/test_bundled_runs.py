@@ -11,8 +11,15 @@ from vasc.network import Origin
 from vasc.streams import Streams
 from vasc.timeline import Timeline
 from vasc.timeline.validation import validate
+from vasc.validation.stem_phyllotaxis import check_connectivity
+from vasc.validation.stem_phyllotaxis.reading import read_stem
+from vasc.validation.stem_references import STEM_PATTERNS
 
 NAMES = [config.name for config in bundled_configs()]
+STEMS = [name for name in NAMES if load(name).kind == "stem"]
+LEAVES = [name for name in NAMES if name not in STEMS]
+FLAX = "stem-lucas-7-11"
+"""The largest stem."""
 FREE = {f"param-kill-distance-{letter}" for letter in "abc"}
 """Closed models whose kill distance is so long that no two veins come near a source."""
 
@@ -26,7 +33,8 @@ ROUNDING = 1e-6
 def test_the_model_builds(name):
     experiment = load(name)
     parameters = experiment.parameters
-    assert parameters.arrival.kill_distance >= parameters.extension.segment_length
+    if name in LEAVES:
+        assert parameters.arrival.kill_distance >= parameters.extension.segment_length
     state = parameters.model(experiment.folder).initial_state(Streams(parameters.seed))
     assert state.step == 0
 
@@ -43,8 +51,41 @@ def test_names_are_those_of_the_table():
     assert all(load(name).parameters.printed is not None for name in rows)
 
 
+def test_every_stem_of_the_thesis_is_there():
+    found = {}
+    for name in STEMS:
+        tables = load(name).tables
+        placement, radius = tables["placement"], tables["domain"]["radius"]
+        key = (placement["divergence"], radius, placement["rise"], placement["plastochron"])
+        found[key] = placement["primordia"]
+    for row in STEM_PATTERNS:
+        enough = 3 * max(row.pair) + 26
+        assert found[row.divergence, row.radius, row.rise, row.plastochron] == enough
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.slow if name == FLAX else ()) for name in STEMS]
+)
+def test_the_whole_stem_ends_as_it_should(name, tmp_path):
+    path = tmp_path / "run.h5"
+    experiment = load(name)
+    n_primordia = experiment.tables["placement"]["primordia"]
+    summary = run(experiment, path)
+    assert summary.stop_reason == "no_sources"
+    assert validate(path) == []
+    with Timeline(path) as timeline:
+        network = timeline.frame().network
+        report = check_connectivity(read_stem(timeline))
+    primordia = np.flatnonzero(network.origins == Origin.PRIMORDIUM)
+    assert len(primordia) == n_primordia
+    assert np.isin(primordia, network.segments).all()
+    assert count_components(network) == 1
+    assert len(np.unique(network.positions, axis=0)) == network.n_nodes
+    assert report.passed
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", LEAVES)
 def test_the_whole_run_ends_as_it_should(name, tmp_path):
     path = tmp_path / "run.h5"
     experiment = load(name)

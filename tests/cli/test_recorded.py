@@ -8,6 +8,7 @@ import shutil
 import h5py
 import pytest
 from PIL import Image
+from reference.stem_run import STEM
 
 from vasc.cli import main
 from vasc.timeline import Timeline
@@ -305,3 +306,33 @@ def test_showing_a_run_loads_nothing_heavy(leaf, arguments):
     words = [sys.executable, "-c", program, arguments[0], leaf, *arguments[1:]]
     ended = subprocess.run(words, capture_output=True, text=True, check=True)
     assert ended.stdout.splitlines()[-1] == "loaded"
+
+
+def test_a_stem_is_drawn_unrolled_by_run_and_in_space_by_render(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "stem.toml").write_text(STEM)
+    assert main(["run", "stem.toml", "--quiet"]) == 0
+    assert main(["render", "stem.h5", "-o", "flat.png", "--unroll"]) == 0
+    assert main(["render", "stem.h5", "-o", "solid.png"]) == 0
+    flat = (tmp_path / "stem.png").read_bytes()
+    assert (tmp_path / "flat.png").read_bytes() == flat
+    assert (tmp_path / "solid.png").read_bytes() != flat
+    for words in (
+        ["render", "stem.h5", "-o", "a.png", "--growth"],
+        ["render", "stem.h5", "-o", "a.png", "--growth", "--unroll"],
+        ["render", "stem.h5", "-o", "a.png", "--color", "age"],
+        ["animate", "stem.h5", "-o", "a.gif"],
+    ):
+        capsys.readouterr()
+        assert main(words) == 2
+        told = capsys.readouterr().err
+        assert "Traceback" not in told
+        assert 0 < told.count("\n") <= 4
+    assert not (tmp_path / "a.png").exists()
+
+
+def test_a_leaf_is_not_unrolled(recorded, tmp_path, capsys):
+    words = ["render", str(recorded / "leaf.h5"), "-o", str(tmp_path / "a.png"), "--unroll"]
+    assert main(words) == 2
+    assert "only a stem can be unrolled" in capsys.readouterr().err
+    assert not (tmp_path / "a.png").exists()

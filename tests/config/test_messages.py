@@ -77,11 +77,13 @@ def test_a_missing_key_is_told_beside_an_unknown_one_that_is_not_like_it():
 
 def test_problems_beside_an_unknown_kind_are_told_if_every_model_has_them():
     found = problems(
-        config(top='kind = "x"', arrival="kill_distance = -1", perception='kind = "nearest"')
+        config(top='kind = "x"\nseed = -1', arrival="kill_distance = -1", stop="steps = 0")
     )
+    # no stem has an arrival
     assert [line.partition(" = ")[0] for line in found] == [
         "leaf: kind",
-        "leaf: arrival.kill_distance",
+        "leaf: seed",
+        "leaf: stop.steps",
     ]
 
 

@@ -9,9 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from reference.stem_veins import laid_out
 
+from vasc.analysis.ways import ways
 from vasc.errors import OutputError, ShapeError
 from vasc.render import UnrolledStyle, draw_unrolled
-from vasc.render.unrolled import _beyond, _ways, unroll
+from vasc.render.unrolled import _beyond, unroll
 
 RADIUS = 50.0
 
@@ -88,15 +89,15 @@ def test_what_the_cut_goes_through_goes_on_to_the_next_primordia(stem):
 @given(st.lists(st.tuples(st.integers(0, 8), st.integers(0, 8)), max_size=20))
 def test_ways_hold_every_segment_once(pairs):
     segments = sorted({(min(a, b), max(a, b)) for a, b in pairs if a != b})
-    ways = list(_ways(np.array(segments, dtype=int).reshape(-1, 2)))
-    found = [(min(a, b), max(a, b)) for way in ways for a, b in pairwise(way)]
+    found_ways = list(ways(np.array(segments, dtype=int).reshape(-1, 2)))
+    found = [(min(a, b), max(a, b)) for way in found_ways for a, b in pairwise(way)]
     assert sorted(found) == segments
 
 
 def test_a_way_without_a_fork_is_one_line():
-    assert sorted(map(len, _ways(np.array([[0, 1], [2, 1], [2, 3]])))) == [4]
-    assert sorted(map(len, _ways(np.array([[0, 1], [1, 2], [2, 0]])))) == [4]
-    assert sorted(map(len, _ways(np.array([[0, 1], [1, 2], [1, 3]])))) == [2, 2, 2]
+    assert sorted(map(len, ways(np.array([[0, 1], [2, 1], [2, 3]])))) == [4]
+    assert sorted(map(len, ways(np.array([[0, 1], [1, 2], [2, 0]])))) == [4]
+    assert sorted(map(len, ways(np.array([[0, 1], [1, 2], [1, 3]])))) == [2, 2, 2]
 
 
 def test_the_picture_has_numbered_boxes_and_dashes(stem, tmp_path):

@@ -49,7 +49,7 @@ def sequence(
     from vasc.validation.arabidopsis import check_sequence
 
     if output is not None:
-        from vasc.render.files import PICTURE_SUFFIXES, checked_output
+        from vasc.render.saving import PICTURE_SUFFIXES, checked_output
 
         check_picture(output, force=force)
         checked_output(output, PICTURE_SUFFIXES)

@@ -81,7 +81,7 @@ def run(
     if figure is not None:
         from vasc.render import render
 
-        files.append(render(output, figure))
+        files.append(render(output, figure, unroll=experiment.kind == "stem"))
     if as_json or not quiet:
         print_summary(summary, files, as_json=as_json)
 

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from vasc.analysis.widths import WidthParameters
 from vasc.errors import OutputError, VascError
-from vasc.render.files import checked_output, node_widths, open_run, widths_of
+from vasc.render.files import node_widths, open_run, widths_of
 from vasc.render.leaf import draw_leaf, fitted_widths, narrowest_of, view_of
+from vasc.render.saving import checked_output
 from vasc.render.styles import DPI, LeafStyle
 
 if TYPE_CHECKING:
@@ -92,7 +93,7 @@ def animate(
         If the suffix is none of these, the folder does not exist, or an mp4 is
         asked for without the extra ``video``.
     VascError
-        If ``color`` is none of the choices, or ``every`` is below 1.
+        If ``color`` is none of the choices, ``every`` is below 1, or the run is no leaf's.
     TimelineError
         If ``run`` is not a timeline.
     """
@@ -103,6 +104,8 @@ def animate(
         raise VascError(f"every: {every} is below 1")
     write = _write_mp4 if output.suffix.lower() == ".mp4" else _write_gif
     with open_run(run) as timeline:
+        if timeline.dimensions == 3:
+            raise VascError("films are made of leaves; draw a stem with `vasc render`")
         last = timeline.frame(-1)
         narrowest = narrowest_of(last, color)
         view = view_of(last.blade, style, side=film.pixels / DPI, narrowest=narrowest)

@@ -1,17 +1,16 @@
-"""Pictures in files: png, svg and pdf, the same bytes for the same run."""
+"""Pictures of recorded runs in files."""
 
 from __future__ import annotations
 
-import io
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from vasc.analysis.elongation import Elongation
 from vasc.analysis.widths import WidthParameters
 from vasc.arrays import Floats
-from vasc.errors import OutputError, VascError
+from vasc.errors import VascError
 from vasc.render.keys import size_in_points
 from vasc.render.leaf import (
     NARROWEST,
@@ -22,6 +21,8 @@ from vasc.render.leaf import (
     view_at,
     view_of,
 )
+from vasc.render.saving import PICTURE_SUFFIXES, checked_output, save
+from vasc.render.stems import only_step, render_stem
 from vasc.render.styles import DPI, INK, TEXT_SIZE, LeafStyle
 
 if TYPE_CHECKING:
@@ -29,23 +30,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from vasc.timeline import Frame, Timeline
-
-PICTURE_SUFFIXES = (".png", ".svg", ".pdf")
-# what a user's matplotlibrc might change in a picture
-_SETTINGS: Any = {
-    "svg.hashsalt": "vasc",
-    "svg.fonttype": "path",
-    "font.family": "DejaVu Sans",
-    "savefig.bbox": None,
-    "savefig.transparent": False,
-    "savefig.facecolor": "auto",
-}
-# no dates, no versions: equal runs give equal files
-_METADATA: dict[str, dict[str, None]] = {
-    ".png": {"Software": None},
-    ".svg": {"Date": None, "Creator": None},
-    ".pdf": {"CreationDate": None, "Creator": None, "Producer": None},
-}
 
 
 def render(
@@ -58,10 +42,11 @@ def render(
     widths: WidthParameters | None = None,
     sources: bool = False,
     scale_bar: bool = True,
+    unroll: bool = False,
     pixels: int = 1600,
     style: LeafStyle | None = None,
 ) -> Path:
-    """Write a picture of a recorded leaf.
+    """Write a picture of a recorded leaf or stem.
 
     Parameters
     ----------
@@ -77,6 +62,8 @@ def render(
         See :func:`vasc.render.draw_leaf`.
     widths : WidthParameters, optional
         The widths of the run's config if left out.
+    unroll : bool
+        Draw a stem split along a line and laid flat, not in three dimensions.
     pixels : int
         Longer side of a single leaf in a png; an svg or pdf has the same proportions.
 
@@ -90,15 +77,24 @@ def render(
     OutputError
         If the suffix is none of these, or the folder does not exist.
     VascError
-        If ``color`` is none of the choices, or a step was not recorded.
+        If ``color`` is none of the choices, or a step was not recorded; if a leaf is to
+        be unrolled, or a stem drawn at several steps, with sources or in colours.
     TimelineError
         If ``run`` is not a timeline.
     """
     output = checked_output(output, PICTURE_SUFFIXES)
     with open_run(run) as timeline:
+        steps = [step] if steps is None else steps
+        if timeline.dimensions == 3:
+            only = only_step(steps, color=color, sources=sources)
+            return render_stem(
+                timeline, output, only, unroll=unroll, scale_bar=scale_bar, pixels=pixels
+            )
+        if unroll:
+            raise VascError("only a stem can be unrolled; this is the run of a leaf")
         widths = widths_of(timeline) if widths is None else widths
         style = LeafStyle() if style is None else style
-        frames = [timeline.frame(at) for at in ([step] if steps is None else steps)]
+        frames = [timeline.frame(at) for at in steps]
         if not frames:
             raise VascError("steps: expected at least one step, got none")
         views = _views(frames, style, pixels / DPI, narrowest_of(frames[-1], color))
@@ -125,59 +121,6 @@ def render(
                 _write_step(ax, frame.step)
         save(figure, output)
     return output
-
-
-def save(figure: Figure, output: str | Path) -> None:
-    """Write a figure as png, svg or pdf, without a date: equal figures give equal bytes.
-
-    Parameters
-    ----------
-    figure : Figure
-        What to write.
-    output : path
-        Where to; its suffix says as what.
-
-    Raises
-    ------
-    OutputError
-        If the suffix is none of these, or the folder does not exist.
-    """
-    from matplotlib import rc_context
-
-    output = checked_output(output, PICTURE_SUFFIXES)
-    kind = output.suffix.lower()
-    picture = io.BytesIO()
-    with rc_context(_SETTINGS):
-        figure.savefig(picture, format=kind[1:], dpi=DPI, metadata=_METADATA[kind])
-    # written in one go, so that no half picture is left behind
-    output.write_bytes(picture.getvalue())
-
-
-def checked_output(output: str | Path, suffixes: Sequence[str]) -> Path:
-    """Give a path that a picture can be written to.
-
-    Parameters
-    ----------
-    output : path
-        Where a picture is to go.
-    suffixes : sequence of str
-        What it may end in.
-
-    Returns
-    -------
-    Path
-
-    Raises
-    ------
-    OutputError
-        If the suffix is none of these, or the folder does not exist.
-    """
-    path = Path(output)
-    if path.suffix.lower() not in suffixes:
-        raise OutputError(f"{path}: suffix {path.suffix!r} is not one of {', '.join(suffixes)}")
-    if not path.parent.is_dir():
-        raise OutputError(f"{path}: folder {path.parent} does not exist")
-    return path
 
 
 @contextmanager

@@ -8,7 +8,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from vasc.render.files import save
+from vasc.render.saving import save
 from vasc.render.styles import INK, TEXT_SIZE
 
 if TYPE_CHECKING:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,9 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from vasc.analysis.ways import ways
 from vasc.arrays import Floats, Ids, Points
 from vasc.errors import ShapeError
-from vasc.render.files import save
+from vasc.render.keys import size_in_points
+from vasc.render.saving import save
 from vasc.render.styles import INK, TEXT_SIZE
 
 if TYPE_CHECKING:
@@ -90,7 +91,12 @@ class Unrolled:
 
 
 def unroll(
-    positions: Points, segments: Ids, radius: float, *, cut: float = 0.0, near_axis: float = 0.2
+    positions: Points,
+    segments: Ids,
+    radius: float | Floats,
+    *,
+    cut: float = 0.0,
+    near_axis: float = 0.2,
 ) -> Unrolled:
     """Split a stem along a line and lay it flat.
 
@@ -100,8 +106,8 @@ def unroll(
         Vein nodes, in D; the stem stands along the third axis, around the origin.
     segments : ndarray of shape (m, 2), integer
         Node ids.
-    radius : float
-        Of the stem, in D.
+    radius : float or ndarray of shape (n,)
+        Of the stem, in D; one of every node where it changes with the height.
     cut : float
         Angle of the line that it is split along, in rad.
     near_axis : float
@@ -130,8 +136,8 @@ def unroll(
     across = angles[segments[:, 1]] - angles[segments[:, 0]]
     reach = TURN / 2.0 - (TURN / 2.0 - across) % TURN
     # where the segment passes nearest to the axis is at one of its ends, or nearly
-    distances = np.hypot(x, y)[segments].min(axis=1, initial=np.inf)
-    return Unrolled(places, reach, np.abs(across) > TURN / 2.0, distances < near_axis * radius)
+    distances = (np.hypot(x, y) / radius)[segments].min(axis=1, initial=np.inf)
+    return Unrolled(places, reach, np.abs(across) > TURN / 2.0, distances < near_axis)
 
 
 def draw_unrolled(
@@ -140,7 +146,7 @@ def draw_unrolled(
     primordia: Ids,
     output: str | Path,
     *,
-    radius: float,
+    radius: float | Floats,
     cut: float = 0.0,
     title: str = "",
     style: UnrolledStyle | None = None,
@@ -161,8 +167,8 @@ def draw_unrolled(
         Node ids, in the order of birth.
     output : path
         The picture; png, svg or pdf by its suffix. An old one is replaced.
-    radius : float
-        Of the stem, in D.
+    radius : float or ndarray of shape (n,)
+        Of the stem, in D; one of every node where it changes with the height.
     cut : float
         Angle of the line that it is split along, in rad.
     title : str
@@ -187,25 +193,50 @@ def draw_unrolled(
     if positions.ndim != 2 or positions.shape[1] != 3:
         raise ShapeError(f"positions: expected shape (n, 3), got {positions.shape}")
     style = UnrolledStyle() if style is None else style
-    flat = unroll(positions, segments, radius, cut=cut, near_axis=style.near_axis)
     top = float(positions[:, 2].max(initial=1.0))
     turn_width = style.width * TURN / (TURN + 2.0 * style.strip + 40.0)
-    to_scale = top / (2.0 * np.pi * radius)
+    to_scale = top / (2.0 * np.pi * float(np.max(radius, initial=1e-9)))
     height = turn_width * float(np.clip(to_scale, *style.proportions))
     figure = Figure(figsize=(style.width, height + 0.9))
     axes = figure.add_axes((0.09, 0.5 / (height + 0.9), 0.9, height / (height + 0.9)))
+    draw_flat(axes, positions, segments, primordia, radius=radius, cut=cut, style=style)
+    _finish(axes, title)
+    save(figure, output)
+    return Path(output)
+
+
+def draw_flat(
+    axes: Axes,
+    positions: Points,
+    segments: Ids,
+    primordia: Ids,
+    *,
+    radius: float | Floats,
+    cut: float = 0.0,
+    style: UnrolledStyle | None = None,
+) -> None:
+    """Draw a stem that is split along a line and laid flat, with nothing around it.
+
+    Parameters
+    ----------
+    axes : matplotlib Axes
+        Where to draw; its size must be final.
+    positions, segments, primordia, radius, cut, style
+        See :func:`draw_unrolled`.
+    """
+    style = UnrolledStyle() if style is None else style
+    flat = unroll(positions, segments, radius, cut=cut, near_axis=style.near_axis)
+    top = float(positions[:, 2].max(initial=1.0))
     axes.set_xlim(-style.strip, TURN + style.strip)
     axes.set_ylim(-0.02 * top, 1.04 * top)
     _draw_veins(axes, flat, segments, style, top)
     beyond = _beyond(flat, segments, primordia, len(positions))
     _draw_beyond(axes, flat, segments[beyond], style)
     continued = np.isin(primordia, segments[beyond])
-    area = turn_width * height * 72.0**2 / max(len(primordia), 1)
+    width, height = size_in_points(axes)
+    area = width * TURN / (TURN + 2.0 * style.strip) * height / max(len(primordia), 1)
     size = float(np.clip(0.3 * np.sqrt(area), *style.text))
     _draw_boxes(axes, flat.places[primordia], continued, style, size)
-    _finish(axes, title)
-    save(figure, output)
-    return Path(output)
 
 
 def _draw_veins(
@@ -272,32 +303,13 @@ def _draw_beyond(axes: Axes, flat: Unrolled, segments: Ids, style: UnrolledStyle
         places = flat.places.copy()
         places[(places[:, 0] - TURN / 2.0) * side < 0.0, 0] += side * TURN
         across = np.ptp(places[segments, 0], axis=1)
-        lines = [places[way] for way in _ways(segments[across < TURN / 2.0])]
+        lines = [places[way] for way in ways(segments[across < TURN / 2.0])]
         drawn = axes.add_collection(
             LineCollection(
                 lines, colors=style.severed, linewidths=style.widths[1], linestyles=DASHES
             )
         )
         _clip(axes, drawn, left, left + style.strip)
-
-
-def _ways(segments: Ids) -> Iterator[list[int]]:
-    """Give ways from fork or end to the next, on which dashes run on."""
-    around: dict[int, list[int]] = {}
-    for one, other in segments.tolist():
-        around.setdefault(one, []).append(other)
-        around.setdefault(other, []).append(one)
-    is_inner = {node: len(others) == 2 for node, others in around.items()}
-    # ways without a fork or an end come last, from anywhere on them
-    for start in sorted(around, key=lambda node: is_inner[node]):
-        while around[start]:
-            way = [start, around[start].pop()]
-            around[way[1]].remove(start)
-            while is_inner[way[-1]] and around[way[-1]]:
-                node = way[-1]
-                way.append(around[node].pop())
-                around[way[-1]].remove(node)
-            yield way
 
 
 def _draw_boxes(

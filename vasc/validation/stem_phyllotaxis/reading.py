@@ -5,9 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from vasc.errors import TimelineError
-from vasc.network import Origin
 from vasc.timeline import Timeline
+from vasc.timeline.stems import radii_at, recorded_stem
 from vasc.validation.stem_phyllotaxis.stem_graph import StemGraph
 
 
@@ -26,32 +25,17 @@ def read_stem(timeline: Timeline) -> StemGraph:
     TimelineError
         If the run is no stem, or holds no step.
     """
-    if timeline.dimensions != 3 or timeline.model != "stem":
-        raise TimelineError(
-            f"{timeline.path}: is no stem, but a run of the kind {timeline.model!r}"
-        )
-    if not timeline.n_frames:
-        raise TimelineError(f"{timeline.path}: holds no step")
-    network = timeline.frame(-1).network
-    primordia = np.flatnonzero(network.origins == Origin.PRIMORDIUM).astype(np.int32)
+    stem = recorded_stem(timeline)
     placement: dict[str, Any] = timeline.config["placement"]
-    rise, per_level = float(placement["rise"]), int(placement["per_level"])
-    middle = network.positions[primordia[len(primordia) // 2], 2] if len(primordia) else 0.0
+    n_primordia = len(stem.primordia)
+    middle = stem.positions[stem.primordia[[n_primordia // 2]], 2] if n_primordia else np.zeros(1)
     return StemGraph(
-        positions=network.positions,
-        segments=network.segments,
-        primordia=primordia,
-        ring=timeline.base_ring,
+        positions=stem.positions,
+        segments=stem.segments,
+        primordia=stem.primordia,
+        ring=stem.ring,
         divergence=radians(float(placement["divergence"])),
-        rise=rise,
-        radius=_radius(timeline.config["domain"], float(middle)),
-        per_level=per_level,
+        rise=float(placement["rise"]),
+        radius=float(radii_at(timeline.config["domain"], middle)[0]),
+        per_level=int(placement["per_level"]),
     )
-
-
-def _radius(domain: dict[str, Any], height: float) -> float:
-    """Give the radius of a stem at a height."""
-    if domain.get("radius") is not None:
-        return float(domain["radius"])
-    known = np.array(domain["radii"])
-    return float(np.interp(height, known[:, 0], known[:, 1]))
