@@ -127,7 +127,7 @@ def connectivity(
     from vasc.validation.stem_phyllotaxis import check_connectivity, reading
 
     if output is not None:
-        from vasc.render.files import PICTURE_SUFFIXES, checked_output
+        from vasc.render.saving import PICTURE_SUFFIXES, checked_output
 
         check_picture(output, force=force)
         checked_output(output, PICTURE_SUFFIXES)
