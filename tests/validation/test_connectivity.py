@@ -27,7 +27,7 @@ from vasc.validation.stem_phyllotaxis.connectivity import (
     way_lengths,
 )
 from vasc.validation.stem_phyllotaxis.report import judge_tie
-from vasc.validation.stem_references import LEAST_FRACTION, STEM_PATTERNS
+from vasc.validation.stem_references import LEAST_FRACTION
 
 SMALL = [(137.5, 12.0, (1, 1)), (137.5, 16.0, (1, 2)), (99.5, 25.0, (1, 3))]
 """Divergence, R at H = 10, and the pair, of stems that grow in seconds."""
@@ -307,40 +307,6 @@ def test_arrays_that_make_no_stem_are_refused(change, words):
     }  # fmt: skip
     with pytest.raises(ShapeError, match=words):
         StemGraph(**good | change)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("pattern", STEM_PATTERNS, ids=str)
-def test_every_stem_of_the_thesis(pattern):
-    # near a threshold links among the last primordia settle late
-    n_primordia = 3 * pattern.pair[1] + (37 if pattern.pair == (2, 3) else 24)
-    veins = grow_stem(
-        pattern.divergence, pattern.radius, pattern.rise, n_primordia, pattern.plastochron
-    )
-    report = check_connectivity(as_graph(veins, pattern.divergence, pattern.radius, pattern.rise))
-    assert report.pair == pattern.pair
-    assert report.fraction >= pattern.least_fraction
-    assert report.passed
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("divergence", "radius", "pair", "plastochron"),
-    [
-        (137.5, 28.0, (2, 3), 5),
-        (137.5, 28.0, (2, 3), 10),
-        (77.96, 30.0, (1, 4), 5),
-        (151.14, 45.0, (2, 5), 5),
-        (64.08, 38.0, (1, 5), 5),
-    ],
-)
-def test_stems_that_no_paper_shows(divergence, radius, pair, plastochron):
-    veins = grow_stem(divergence, radius, 10.0, 3 * pair[1] + 24, plastochron)
-    report = check_connectivity(as_graph(veins, divergence, radius))
-    # far from both thresholds
-    assert report.interval.margin(radius / 10.0) > 0.2
-    assert report.pair == report.prediction.pair == pair
-    assert report.fraction == 1.0
 
 
 def test_the_reference_grows_as_many_nodes_as_other_programs():

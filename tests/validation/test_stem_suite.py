@@ -12,7 +12,7 @@ from vasc.experiment import run, verify
 from vasc.timeline import Timeline, validate
 from vasc.validation.stem_phyllotaxis import check_connectivity
 from vasc.validation.stem_phyllotaxis.reading import read_stem
-from vasc.validation.stem_references import STEM_PATTERNS
+from vasc.validation.stem_references import STEM_PATTERNS, StemPattern
 from vasc.validation.stem_suite import config_of, grown, validate_stem
 from vasc.validation.stem_transitions import swept_stem, thresholds
 
@@ -89,6 +89,24 @@ def test_veins_along_the_surface_fail(path):
     report = grown(tables | {"perception": {"metric": "surface"}})
     assert not report.passed
     assert report.pair != (1, 1)
+
+
+@pytest.mark.parametrize(
+    ("divergence", "radius", "pair", "plastochron"),
+    [
+        (137.5, 28.0, (2, 3), 10),
+        (77.96, 30.0, (1, 4), 5),
+        (151.14, 45.0, (2, 5), 5),
+        (64.08, 38.0, (1, 5), 5),
+    ],
+)
+def test_stems_that_no_paper_shows_connect_as_predicted(divergence, radius, pair, plastochron):
+    pattern = StemPattern(divergence, radius, 10.0, pair, plastochron, "")
+    report = grown(config_of(pattern))
+    # far from both thresholds
+    assert report.interval.margin(radius / 10.0) > 0.2
+    assert report.pair == report.prediction.pair == pair
+    assert report.fraction == 1.0
 
 
 @pytest.mark.slow
