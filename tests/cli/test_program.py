@@ -33,7 +33,7 @@ def started(*arguments, **options):
 def test_there_is_a_verb_for_everything():
     assert set(NAMES) == {
         *("configs", "run", "resume", "show", "events", "lineage", "stats"),
-        *("render", "animate", "verify", "schema", "validate"),
+        *("render", "animate", "export", "verify", "schema", "validate"),
     }
 
 

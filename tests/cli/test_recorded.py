@@ -336,3 +336,19 @@ def test_a_leaf_is_not_unrolled(recorded, tmp_path, capsys):
     assert main(words) == 2
     assert "only a stem can be unrolled" in capsys.readouterr().err
     assert not (tmp_path / "a.png").exists()
+
+
+def test_only_a_stem_is_exported(recorded, tmp_path, capsys):
+    words = ["export", str(recorded / "leaf.h5"), "-o", str(tmp_path / "a.ply")]
+    assert main(words) == 2
+    assert "only a stem can be exported" in capsys.readouterr().err
+    (tmp_path / "stem.toml").write_text(STEM)
+    run = str(tmp_path / "stem.h5")
+    assert main(["run", str(tmp_path / "stem.toml"), "-o", run, "--no-figure", "--quiet"]) == 0
+    words[1] = run
+    assert main(words) == 0
+    capsys.readouterr()
+    assert main(words) == 2
+    assert "exists" in capsys.readouterr().err
+    assert main([*words, "--force", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == {"files": [str(tmp_path / "a.ply")]}

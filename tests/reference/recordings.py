@@ -24,6 +24,7 @@ class Recording:
     scales: tuple = (0.5, 0.75, 1.0)
     units: dict = field(default_factory=dict)
     config: dict = field(default_factory=dict)
+    dimensions: int = 2
 
     @property
     def last_step(self):
