@@ -82,6 +82,15 @@ def test_a_suite_that_is_none_is_refused(capsys):
     assert "must be one of growth, stem, transitions" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(("factor", "turn"), [(1.0, -1.0), (2.0, 1.0), (0.5, 1.0)])
+def test_mirrored_and_rescaled_stems_connect_alike(factor, turn):
+    # R/H = 2.5; the apex rises as far in a step as in the stem it is the twin of
+    twin = StemPattern(turn * 137.5, factor * 50.0, factor * 20.0, (2, 3), round(10 * factor), "")
+    report = grown(config_of(twin))
+    assert report.pair == report.prediction.pair == (2, 3)
+    assert report.fraction == 1.0
+
+
 def test_veins_along_the_surface_fail(path):
     # distances along the surface predict, and make, (1, 2) where the thesis has (1, 1)
     tables = config_of(STEM_PATTERNS[-6])
