@@ -8,12 +8,14 @@ import sys
 from pathlib import Path
 
 import matplotlib.image
+import numpy as np
 import pytest
 
 FOLDER = Path(__file__).resolve().parent.parent / "paper_figures"
 SCRIPTS = sorted(FOLDER.glob("*/fig_*.py"))
 FAST = ["3_2", "3_3", "3_4", "3_5", "4_10", "4_11", "4_12", "4_13"]
 FAST += ["5_2", "5_3", "5_5", "5_6", "5_9"]
+FAST += ["6_2", "6_4", "6_6", "6_7"]
 SLOW = [path.stem.removeprefix("fig_") for path in SCRIPTS]
 SLOW = [number for number in SLOW if number not in FAST]
 
@@ -47,7 +49,7 @@ def test_a_diagram_is_drawn(number, tmp_path, monkeypatch):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("number", SLOW)
-def test_leaves_are_drawn(number, tmp_path, monkeypatch):
+def test_leaves_and_stems_are_drawn(number, tmp_path, monkeypatch):
     output = tmp_path / "figure.png"
     load(script(number), monkeypatch).main(output)
     check_picture(output)
@@ -100,3 +102,27 @@ def test_urquhart_keeps_what_the_exact_neighbourhood_excludes(monkeypatch):
     exact = attracted(figure.np.array(nodes), figure.SOURCE)
     approximate = attracted(figure.np.array(nodes), figure.SOURCE, "urquhart")
     assert approximate - exact == {list(figure.NODES).index("v")}
+
+
+def test_a_leaf_trace_and_the_ring_meet_in_the_middle(monkeypatch):
+    figure = load(script("6_2"), monkeypatch)
+    states = figure.grown(
+        "stem",
+        domain={"radius": figure.RADIUS},
+        placement={"divergence": 137.5, "rise": figure.RISE, "primordia": 1, "first_step": 2},
+    )
+    network = states[-1].network
+    above = network.positions[network.positions[:, 2] > 0.0]
+    assert np.allclose(np.sort(above[:, 2]), [1.0, 2.0, 3.0, 4.0, 5.0])
+
+
+def test_growth_of_internodes_keeps_the_order_of_heights(monkeypatch):
+    figure = load(script("6_6"), monkeypatch)
+    heights = np.linspace(0.0, 1.0, 50)
+    grown = figure.grow_map(heights)
+    assert grown[0] == 0.0
+    assert grown[-1] == 1.0
+    lengths = np.diff(grown)
+    assert (lengths > 0.0).all()
+    # the younger, the shorter
+    assert (np.diff(lengths) < 0.0).all()

@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 
 FINEST = 1.1
 """Radius of a tube at least, in pixels."""
-THICKEST_SHARE = 0.0026
-"""Radius of a tube at the base at least, over the longer side of what is seen."""
 N_ELLIPSE = 90
 """Points around the ends of the stem."""
 NARROWEST = 1.2
@@ -47,6 +45,9 @@ class StemStyle:
     azimuth, elevation : float
         Direction of the viewer: around the stem from the first axis on, and above
         the horizon, in degrees.
+    thickest_share : float
+        Radius of a strand at the base at least, over the longer side of what is seen;
+        all grow with it.
     padding : float
         Free paper around the stem over its longer side.
     """
@@ -57,6 +58,7 @@ class StemStyle:
     background: str = "#ffffff"
     azimuth: float = 35.0
     elevation: float = 14.0
+    thickest_share: float = 0.0026
     padding: float = 0.02
 
 
@@ -237,7 +239,7 @@ def _spheres(
     from matplotlib.colors import to_rgb
 
     left, bottom, right, top = sight.box
-    larger = max(1.0, THICKEST_SHARE * max(right - left, top - bottom) / BASE_RADIUS)
+    larger = max(1.0, style.thickest_share * max(right - left, top - bottom) / BASE_RADIUS)
     finest = FINEST / pixels_per_length
     thick = np.maximum(larger * strand_radii(positions[:, 2]), finest)
     spacing = 0.5 / pixels_per_length
