@@ -55,6 +55,9 @@ MOST_CELLS = 1e9
 SHORTEST_PIECE = 0.01
 """Segment lengths that stretched segments may be cut down to: all vein nodes are kept."""
 
+SHORTEST_CUT = 0.1
+"""Segment lengths that two stretched segments have together when their corner is cut."""
+
 LAST_BIRTH = 2**31 - 1
 """The last step that a timeline can hold."""
 
@@ -77,10 +80,10 @@ def size_problems(parameters: "LeafVenation") -> list[str]:
     """
     if problems := _absurd_lengths(parameters):
         return problems
-    domain = parameters.domain
+    domain, segment = parameters.domain, parameters.extension.segment_length
     if domain is None:
-        return _too_large_frames(parameters)
-    segment = parameters.extension.segment_length
+        found = [_too_short_pieces(parameters, segment), *_too_large_frames(parameters)]
+        return [problem for problem in found if problem]
     first, key, last = domain.length, *_final_length(parameters)
     problems = [
         _too_long(key, last, last / segment),
@@ -199,6 +202,11 @@ def _too_small(key: Key, value: float, across: str, n_segments: float, least: fl
 def _too_short_pieces(parameters: "LeafVenation", segment: float) -> str:
     """Describe a refinement into pieces that are far too many; empty if they are not."""
     refinement: Any = parameters.refinement
+    if refinement.kind == "corner_cutting" and refinement.threshold < SHORTEST_CUT * segment:
+        return (
+            f"{assignment(('refinement', 'threshold'), refinement.threshold)}: corners would be cut"
+            f" into pieces that memory cannot hold; it must be at least {SHORTEST_CUT * segment:g}"
+        )
     if refinement.kind != "subdivision":
         return ""
     placement: Any = parameters.placement

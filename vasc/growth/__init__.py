@@ -2,6 +2,7 @@
 
 from vasc.growth.base import (
     MARGIN_SPACING,
+    MOST_STEPS,
     Deformation,
     Growth,
     LinearGrowthParameters,
@@ -27,6 +28,7 @@ GROWTHS: dict[str, type[Parameters]] = {
 __all__ = [
     "GROWTHS",
     "MARGIN_SPACING",
+    "MOST_STEPS",
     "Deformation",
     "Growth",
     "IsogonicGrowth",

@@ -1,5 +1,6 @@
 """Key-frames of a config: tables of control rows, or outlines by age."""
 
+from itertools import pairwise
 from pathlib import Path
 from typing import Literal
 
@@ -81,11 +82,16 @@ class KeyframedParameters(Parameters):
         times = [frame.time for frame in self.frames]
         if times[0] != 0.0:
             raise ValueError(f"the first key-frame is of time {times[0]:g}; it must be 0")
-        for before, after in zip(self.frames, self.frames[1:], strict=False):
+        for row, (before, after) in enumerate(pairwise(self.frames), start=1):
             if after.time <= before.time:
                 raise ValueError(
-                    f"a key-frame of time {after.time:g} follows one of time {before.time:g};"
-                    " times must ascend"
+                    f"frames[{row}].time is {after.time:g}; times must ascend, and the one before"
+                    f" is {before.time:g}"
+                )
+            if self.step_duration > after.time - before.time:
+                raise ValueError(
+                    f"step_duration is {self.step_duration:g}; it must be at most the time between"
+                    f" two key-frames, and frames[{row}] follows after {after.time - before.time:g}"
                 )
             if len(after.rows) != len(before.rows):
                 raise ValueError(

@@ -19,7 +19,7 @@ class OutlineParameters(Parameters):
 
     time: float = quantity("Time of this age; that of the first is 0.", unit="time", ge=0.0)
     file: str = quantity("A file with the outline, as for the domain.")
-    height: float = quantity("Length of the leaf at this age.", unit="D", gt=0.0)
+    height: float = quantity("Length of the leaf at this age.", unit="D", gt=0.0, le=1e4)
 
 
 class LandmarkParameters(Parameters):

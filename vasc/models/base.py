@@ -180,6 +180,17 @@ class LeafVenation(Parameters):
         return self
 
     @model_validator(mode="after")
+    def _check_circles(self) -> "LeafVenation":
+        """Refuse sources so near to each other that veins would reach them where they begin."""
+        placement, kill = self.placement, self.arrival.kill_distance
+        if isinstance(placement, EmptyCircleParameters) and placement.birth_distance <= kill:
+            raise ValueError(
+                f"placement.birth_distance is {placement.birth_distance:g}; it must be greater than"
+                f" arrival.kill_distance ({kill:g}), or sources appear that are reached at once"
+            )
+        return self
+
+    @model_validator(mode="after")
     def _check_until(self) -> "LeafVenation":
         """Refuse a last step of darts where they are thrown once."""
         placement = self.placement

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
+from pydantic import model_validator
 
 from vasc.arrays import Ids, Points
 from vasc.events import EventKind
@@ -15,6 +16,9 @@ from vasc.parameters import Parameters, quantity
 from vasc.placement import Moment
 from vasc.streams import Streams
 from vasc.vasculature import Vasculature
+
+MOST_JITTER = 0.1
+"""Displacement of new nodes at most, over the threshold of length."""
 
 
 class CornerCutting(Refinement):
@@ -215,6 +219,16 @@ class CornerCuttingParameters(Parameters):
     jitter: float = quantity(
         "Greatest displacement of new nodes along each axis.", unit="D", default=0.0, ge=0.0
     )
+
+    @model_validator(mode="after")
+    def _check(self) -> "CornerCuttingParameters":
+        """Refuse displacements that lengthen segments as fast as they are cut."""
+        if self.jitter > MOST_JITTER * self.threshold:
+            raise ValueError(
+                f"jitter is {self.jitter:g}; it must be at most {MOST_JITTER:g} times the threshold"
+                f" ({self.threshold:g}), or cut segments are as long as before"
+            )
+        return self
 
     def refinement(self, growth: Growth, birth_distance: float, length: float) -> Refinement:
         """Give the refinement."""

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from vasc.growth import Growth
+from vasc.growth import MOST_STEPS, Growth
 from vasc.parameters import Parameters, quantity
 
 
@@ -25,7 +25,9 @@ class MesophyllTime(Parameters):
     time: float = quantity("When the event happens; 0: before any vein.", unit="time", ge=0.0)
 
     def step(self, growth: Growth) -> int | None:
-        """Give the first step at that time or later."""
+        """Give the first step at that time or later, None if no run lasts so long."""
+        if self.time > growth.time(MOST_STEPS):
+            return None
         step = max(1, int(self.time / growth.time(1)))
         # a step takes the same time always; the division may be off by rounding
         while step > 1 and growth.time(step - 1) >= self.time:

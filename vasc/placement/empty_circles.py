@@ -364,7 +364,11 @@ class EmptyCircleParameters(Parameters):
         le=0.5,
     )
     until: int | None = quantity(
-        "Last step with new sources; by default that of growth.", unit="steps", default=None, ge=1
+        "Last step with new sources; by default that of growth.",
+        unit="steps",
+        default=None,
+        ge=1,
+        le=1_000_000,
     )
 
     def placement(self, growth: Growth, kill_distance: float) -> EmptyCirclePlacement:

@@ -113,6 +113,8 @@ def _minor_veins(timeline: Timeline, cast: Cast) -> Verdict:
     unfinished = len(minor - joined - free)
     value = f"{len(minor)} minor veins: {len(joined)} join, {len(free)} end freely"
     share = unfinished / len(minor)
+    if share > SEQUENCE.unfinished_share and not cast.story.is_over:
+        return Verdict(None, value, "the run is not over")
     return judged(share <= SEQUENCE.unfinished_share, value, f"{unfinished} do neither")
 
 

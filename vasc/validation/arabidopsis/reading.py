@@ -47,7 +47,8 @@ def read_story(timeline: Timeline) -> Story:
         ending=reading.ending(),
         last_step=timeline.last_step,
         last_time=reading.time(timeline.last_step),
-        is_over=timeline.is_complete or ended is not None,
+        # a run that its config has stopped is not over: its growth would have gone on
+        is_over=ended is not None or timeline.stop_reason in ("no_sources", "nothing_pulled"),
         growth_ended=ended,
         growth_ended_time=None if ended is None else reading.time(ended),
         heights=reading.height,

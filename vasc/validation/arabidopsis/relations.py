@@ -7,6 +7,7 @@ from vasc.validation.arabidopsis.story import MIDVEIN, SEED, SourceStory
 from vasc.validation.arabidopsis.verdicts import Verdict, absent, judged, undecided
 from vasc.validation.references import SEQUENCE
 
+NOT_FINAL = "areas are not final: growth has not ended"
 NO_NEIGHBORS = "the file does not record what sources attract"
 
 
@@ -84,7 +85,9 @@ def second_smaller_when_formed(cast: Cast) -> Verdict:
 
 
 def second_larger_in_the_end(cast: Cast) -> Verdict:
-    """C15: the same at the last step."""
+    """C15: the same at the last step, when growth is over."""
+    if not cast.story.is_over:
+        return undecided(NOT_FINAL)
     ratio = area_ratio(cast.loop_2, cast.loop_1, cast.story.last_step)
     return _ratio(ratio, (SEQUENCE.formed_ratio, float("inf")), is_open=True)
 
@@ -96,7 +99,9 @@ def third_smaller_when_formed(cast: Cast) -> Verdict:
 
 
 def third_alike_in_the_end(cast: Cast) -> Verdict:
-    """C17: the same at the last step."""
+    """C17: the same at the last step, when growth is over."""
+    if not cast.story.is_over:
+        return undecided(NOT_FINAL)
     ratio = area_ratio(cast.loop_3, cast.loop_2, cast.story.last_step)
     return _ratio(ratio, SEQUENCE.third_final_ratio, is_open=False)
 
