@@ -50,7 +50,7 @@ def test_points_move_straight_and_evenly_between_key_frames(name, duration):
 
 
 @pytest.mark.parametrize(
-    ("duration", "last_step"), [(1.0, 130), (2.0, 65), (7.0, 19), (0.1, 1300), (130.0, 1)]
+    ("duration", "last_step"), [(1.0, 130), (2.0, 65), (7.0, 19), (0.1, 1300), (50.0, 3)]
 )
 def test_the_last_step_reaches_the_last_frame_and_all_later_ones_keep_it(duration, last_step):
     growth = growth_of(SMALL, step_duration=duration)
@@ -165,7 +165,9 @@ def test_a_fold_is_refused_with_its_time_and_place(frames):
         growth_of(frames)
     time, c, v = (
         float(value)
-        for value in re.search(r"time (\S+) at c = (\S+), v = (\S+) ", str(caught.value)).groups()
+        for value in re.search(
+            r"time (\S+) at c = (\S+) .*, v = (\S+) ", str(caught.value)
+        ).groups()
     )
     assert 0.0 <= time <= list(frames)[-1]
     assert determinants(frames, time, np.array([[c, v]]))[0] < 0.0
@@ -230,7 +232,10 @@ def changed(row, values):
     [
         ({5.0: SOUND}, "the first key-frame is of time 5; it must be 0"),
         ({0.0: SOUND, -1.0: SOUND}, "greater than or equal to 0"),
-        ({0.0: SOUND, 9.0: SOUND, 8.0: SOUND}, "time 8 follows one of time 9; times must ascend"),
+        (
+            {0.0: SOUND, 9.0: SOUND, 8.0: SOUND},
+            "time is 8; times must ascend, and the one before is 9",
+        ),
         ({0.0: SOUND, 9.0: [*SOUND, (20.0, 5.0, 0.0)]}, "time 9 has 5 rows; all must have as many"),
         ({0.0: SOUND[:3]}, "at least 4 items"),
         ({0.0: changed(2, (4.0, 5.0, 0.0))}, r"row 2 has the height 4; .* above that of row 1 \(4"),

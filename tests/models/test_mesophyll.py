@@ -215,3 +215,9 @@ def blind_now(state):
     rows &= state.rows("states", "state") == CanalState.ARRESTED
     canals = state.rows("states", "id")[rows].tolist()
     return [pair for pair in zip(tips, canals, strict=True) if pair[1] not in retargeted]
+
+
+def test_an_event_that_no_run_lasts_to_see_never_happens():
+    event = TypeAdapter(AnyMesophyll).validate_python({"kind": "time", "time": 1e300})
+    growth = KeyframedParameters.model_validate(keyframed(SMALL)).growth()
+    assert event.step(growth) is None
