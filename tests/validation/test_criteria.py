@@ -1,6 +1,7 @@
 """The criteria on a leaf that meets all of them, and on leaves spoilt in one way each."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from reference.sequence_story import (
@@ -221,3 +222,8 @@ def test_neighbors_that_are_not_recorded_leave_their_criteria_open():
     story = with_sources(control_story(), set(range(17)), neighbors=None)
     assert failures(story) == set()
     assert undecided(story) == {"C1", "C3", "C4", "C6", "C8"}
+
+
+def test_the_page_says_what_each_criterion_asks():
+    page = (Path(__file__).resolve().parents[2] / "docs" / "validation.md").read_text()
+    assert [c.id for c in CRITERIA if f"| {c.id} | {c.text} |" not in page] == []

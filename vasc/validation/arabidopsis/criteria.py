@@ -174,7 +174,8 @@ CRITERIA = (
     ),
     Criterion(
         "C13",
-        "It appears soon after the third loops are closed, if not before, and not later than the"
+        "The first source inside a first loop appears soon after the third loops are closed, if not"
+        " before, and not later than the"
         " first source inside a second loop.",
         f"at most {SEQUENCE.minor_delay:g} steps after",
         OURS,
@@ -190,7 +191,7 @@ CRITERIA = (
     ),
     Criterion(
         "C15",
-        "In the end they enclose more.",
+        "In the end the second loops enclose more than the first.",
         f"area ratio above {SEQUENCE.formed_ratio:g}",
         THESIS,
         relations.second_larger_in_the_end,
@@ -204,7 +205,7 @@ CRITERIA = (
     ),
     Criterion(
         "C17",
-        "In the end they enclose about as much.",
+        "In the end the third loops enclose about as much as the second.",
         f"area ratio {_LEAST:g} to {_MOST:g}",
         OURS,
         relations.third_alike_in_the_end,
@@ -218,7 +219,7 @@ CRITERIA = (
     ),
     Criterion(
         "C19",
-        "Every lateral source until then has a mirror image.",
+        "Every lateral source until the third loops are closed has a mirror image.",
         _PAIR,
         OURS,
         events.every_source_mirrored,
