@@ -170,6 +170,8 @@ def test_another_metric_connects_other_primordia():
         ({"domain": {"radius": 1e9}}, "more than memory can hold"),
         ({"domain": {}}, "give either 'radius' or 'radii'"),
         ({"domain": {"radii": [(0.0, 5.0), (0.0, 6.0)]}}, "heights must ascend"),
+        ({"internodes": [(0.0, 0.0), (0.5, 0.6)]}, "the last must have the height 1"),
+        ({"internodes": [(0.0, 0.0), (0.5, 0.6), (1.0, 0.5)]}, "both numbers must be above"),
         ({"placement": {"rise": 0.5}}, "placement.rise is 0.5; it must be at least"),
         ({"placement": {"divergence": float("nan")}}, "finite"),
         ({"placement": {"primordia": 0}}, "greater than or equal to 1"),
@@ -182,6 +184,6 @@ def test_bad_stems_are_refused(spoiled, part):
         "placement": {"divergence": 137.5, "rise": 10.0},
     }
     for table, values in spoiled.items():
-        tables[table] = values if table == "domain" else tables[table] | values
+        tables[table] = tables[table] | values if table == "placement" else values
     with pytest.raises(ValidationError, match=part):
         StemVasculature.model_validate(tables)

@@ -10,6 +10,7 @@ from vasc.config import load, load_text
 from vasc.errors import TimelineError
 from vasc.experiment import run, verify
 from vasc.timeline import Timeline, validate
+from vasc.timeline.stems import elongated, recorded_stem
 from vasc.validation.stem_phyllotaxis import check_connectivity
 from vasc.validation.stem_phyllotaxis.reading import read_stem
 from vasc.validation.stem_references import STEM_PATTERNS, StemPattern
@@ -53,6 +54,20 @@ def test_a_stem_is_read_as_it_was_recorded(path):
     assert report.pair == (1, 1)
     assert report.fraction == 1.0
     assert report.passed
+
+
+def test_internodes_grow_in_pictures_alone(path):
+    with Timeline(path) as timeline:
+        stem = recorded_stem(timeline)
+        grown_up = elongated(stem, [(0.0, 0.0), (0.5, 0.8), (1.0, 1.0)])
+        assert elongated(stem, []) is stem
+    top = stem.positions[:, 2].max()
+    order = np.argsort(stem.positions[:, 2])
+    before, after = stem.positions[order, 2], grown_up.positions[order, 2]
+    assert (np.diff(after) >= 0.0).all()
+    np.testing.assert_allclose(np.interp(0.5 * top, before, after), 0.8 * top, rtol=0.01)
+    assert after[-1] == pytest.approx(top)
+    np.testing.assert_array_equal(grown_up.positions[:, :2], stem.positions[:, :2])
 
 
 def test_a_leaf_is_no_stem(tmp_path):

@@ -1,6 +1,7 @@
 """Stem vasculature: veins between primordia, every node a source (Runions 2008, chapter 6)."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 from math import pi
 from pathlib import Path
 from typing import Literal
@@ -174,10 +175,34 @@ class StemVasculature(Parameters):
     extension: StemExtensionParameters = quantity(
         "How strands extend.", default=StemExtensionParameters()
     )
+    internodes: list[tuple[float, float]] = quantity(
+        "Growth of internodes, for pictures alone: pairs of the height over that of the stem and"
+        " of the height after growth, from [0, 0] on; a smooth curve rises through them (Figure"
+        " 6.5).",
+        default=[],
+    )
     stop: StopParameters = quantity("When the run ends.", default=StopParameters())
     record: RecordParameters = quantity("What is recorded.", default=RecordParameters())
     units: UnitParameters | None = quantity("Real units.", default=None)
     printed: PrintedParameters | None = quantity("Values as printed.", default=None)
+
+    @model_validator(mode="after")
+    def _check_internodes(self) -> "StemVasculature":
+        """Require a map of heights that rises from the base to the top."""
+        pairs = self.internodes
+        if not pairs:
+            return self
+        if pairs[0] != (0.0, 0.0) or pairs[-1][0] != 1.0:
+            raise ValueError(
+                f"internodes begins with {list(pairs[0])} and ends with {list(pairs[-1])}; the"
+                " first must be [0, 0], and the last must have the height 1"
+            )
+        for row, ((a, b), (c, d)) in enumerate(pairwise(pairs), start=1):
+            if c <= a or d <= b:
+                raise ValueError(
+                    f"internodes[{row}] is {[c, d]}; both numbers must be above those of {[a, b]}"
+                )
+        return self
 
     @model_validator(mode="after")
     def _check(self) -> "StemVasculature":

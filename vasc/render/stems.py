@@ -164,10 +164,10 @@ def render_stem(
     Path
         The file written.
     """
-    from vasc.timeline.stems import recorded_stem
+    from vasc.timeline.stems import elongated, recorded_stem
 
     output = checked_output(output, PICTURE_SUFFIXES)
-    stem = recorded_stem(timeline, step)
+    stem = elongated(recorded_stem(timeline, step), timeline.config.get("internodes") or [])
     veins = stem.positions, stem.segments, stem.primordia
     if unroll:
         return draw_unrolled(*veins, output, radius=stem.radii, title=title_of(timeline))

@@ -1,6 +1,7 @@
 """A recorded stem at one step, as plain arrays."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -72,6 +73,31 @@ def recorded_stem(timeline: Timeline, step: int = -1) -> RecordedStem:
         ring=timeline.base_ring,
         radii=radii_at(timeline.config["domain"], network.positions[:, 2]),
     )
+
+
+def elongated(stem: RecordedStem, internodes: Sequence[Sequence[float]]) -> RecordedStem:
+    """Give a stem after the growth of its internodes, which is no part of the pattern.
+
+    Parameters
+    ----------
+    stem : RecordedStem
+        As it was recorded.
+    internodes : sequence of pairs of float
+        Heights over that of the stem, before and after; a monotone curve goes through
+        them (Runions 2008, section 6.2.3 and Figure 6.5). The stem itself if empty.
+    """
+    if not len(internodes):
+        return stem
+    from scipy.interpolate import PchipInterpolator
+
+    before, after = np.array(internodes, dtype=np.float64).T
+    top = float(stem.positions[:, 2].max(initial=0.0))
+    if top <= 0.0:
+        return stem
+    positions = stem.positions.copy()
+    shares = np.clip(positions[:, 2] / top, 0.0, 1.0)
+    positions[:, 2] = top * PchipInterpolator(before, after)(shares)
+    return replace(stem, positions=positions)
 
 
 def radii_at(domain: dict[str, Any], heights: Floats) -> Floats:
