@@ -5,6 +5,8 @@ import os
 from hypothesis import HealthCheck, settings
 
 os.environ["MPLBACKEND"] = "Agg"
+# threads of small matrix products only wait for each other on a busy machine
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # No deadline: the first call of a kernel compiles it. Derandomized: a failure is the
 # change's, not the day's.

@@ -16,13 +16,16 @@ from typing import Any
 __version__ = "0.1.0"
 
 _HOMES = {
+    "AreoleVenation": "vasc.models",
     "Blade": "vasc.domain",
     "ClosedVenation": "vasc.models",
     "OpenVenation": "vasc.models",
+    "StemVasculature": "vasc.models",
     "Streams": "vasc.streams",
     "Timeline": "vasc.timeline",
     "VascError": "vasc.errors",
     "animate": "vasc.render",
+    "check_connectivity": "vasc.validation.stem_phyllotaxis",
     "check_sequence": "vasc.validation.arabidopsis",
     "draw_leaf": "vasc.render",
     "load": "vasc.config",
@@ -36,13 +39,16 @@ _HOMES = {
 }
 
 __all__ = [
+    "AreoleVenation",
     "Blade",
     "ClosedVenation",
     "OpenVenation",
+    "StemVasculature",
     "Streams",
     "Timeline",
     "VascError",
     "animate",
+    "check_connectivity",
     "check_sequence",
     "draw_leaf",
     "load",

@@ -20,10 +20,13 @@ def draw_line(ax: Axes, nodes: NDArray, names: tuple[str, ...], color: str = INK
     """Draw nodes joined by segments, with their names."""
     ax.plot(*nodes.T, color=color, linewidth=1.6, zorder=3)
     draw_nodes(ax, nodes, size=8.0, color=color)
-    middle = nodes.mean(axis=0)
     for (x, y), name in zip(nodes.tolist(), names, strict=True):
-        side = "right" if x < middle[0] else "left"
-        ax.annotate(name, (x, y), (0, 9), textcoords="offset points", ha=side, va="center")
+        # beside the ends, and below the corners, where no arrow passes
+        shift = (0, 11)
+        if name in ("$P_{n1}$", "$P_{n2}$"):
+            shift = (20, -9) if "1" in name else (-20, -13)
+        look = {"textcoords": "offset points", "va": "center"}
+        ax.annotate(name, (x, y), shift, ha="center", **look)
 
 
 def draw_weight(ax: Axes, start: NDArray, stop: NDArray, share: float, bend: float) -> None:
@@ -47,9 +50,9 @@ def main(output: Path) -> None:
     draw_line(after, np.stack([first, *cut, last]), ("$P_1$", "$P_{n1}$", "$P_{n2}$", "$P_3$"))
     for start, stop, share, bend in (
         (first, cut[0], 1 - ALPHA, 0.35),
-        (corner, cut[0], ALPHA, -0.35),
+        (corner, cut[0], ALPHA, 0.35),
         (last, cut[1], 1 - ALPHA, -0.35),
-        (corner, cut[1], ALPHA, 0.35),
+        (corner, cut[1], ALPHA, -0.35),
     ):
         draw_weight(after, start, stop, share, bend)
     letters((before, after))

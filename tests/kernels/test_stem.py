@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from reference import stem as by_definition
 from reference.stem_driver import grow
 
-from vasc.kernels import cylinder
+from vasc.kernels import cylinder, unrolled, urquhart_3d
 from vasc.kernels import stem as steps
 from vasc.kernels.relative_neighbors_3d import relatives
 
@@ -84,6 +84,21 @@ def test_stems_have_as_many_nodes_as_by_other_programs(
     assert abs(stem.n_nodes - n_nodes) <= 0.01 * n_nodes
     assert abs(stem.n_edges - n_edges) <= 0.01 * n_edges
     assert len(stem.pairs) == 0
+
+
+@pytest.mark.parametrize(("radius", "plastochron"), [(115.0, 5), (35.0, 2), (16.0, 1)])
+def test_the_index_changes_nothing(radius, plastochron):
+    def insert(stem, start, length):
+        found = unrolled.relatives_on_surface(stem.positions, start, stem.n_nodes, 0.0)
+        links = (stem.edges, stem.newest, stem.following)
+        lasting = steps.lasting_pairs(stem.positions, stem.pairs, start, stem.n_nodes, *links, 0.0)
+        near, far = steps.divide(stem.positions, found, *links, length, 0.0)
+        return steps.join(stem._replace(pairs=np.concatenate((lasting, far))), near)
+
+    stem, _ = grow(radius, 10.0, 137.5, 14, plastochron)
+    other, _ = grow(radius, 10.0, 137.5, 14, plastochron, insert=insert)
+    assert rows_of(stem)[0].tobytes() == rows_of(other)[0].tobytes()
+    assert rows_of(stem)[1:] == rows_of(other)[1:]
 
 
 def test_nodes_stay_in_the_stem():
@@ -220,6 +235,6 @@ def test_a_restored_stem_goes_on_to_the_same_bytes():
 
 def test_the_approximation_gives_another_stem():
     exact, _ = grow(16.0, 10.0, 137.5, 8, 5)
-    other, _ = grow(16.0, 10.0, 137.5, 8, 5, insert=steps.insert_urquhart, most=300)
+    other, _ = grow(16.0, 10.0, 137.5, 8, 5, insert=urquhart_3d.insert, most=300)
     assert other.n_nodes > 300
     assert rows_of(exact)[0].tobytes() != rows_of(other)[0].tobytes()

@@ -1,6 +1,7 @@
 """Runs in space, in which nothing moves: recorded, read, continued and checked."""
 
 from contextlib import contextmanager
+from types import SimpleNamespace
 
 import h5py
 import numpy as np
@@ -9,10 +10,12 @@ from timeline import synthetic
 from timeline.synthetic import N_RING, NAMES, SEED, StemRun, SyntheticRun, blade, contents, create
 
 from vasc import experiment as experiments
+from vasc.analysis import statistics
 from vasc.cli.program import main
-from vasc.errors import TimelineError
+from vasc.errors import TimelineError, VascError
 from vasc.experiment import Difference
 from vasc.network import Origin
+from vasc.render import draw_leaf
 from vasc.sources import Cause
 from vasc.state import TABLE_COLUMNS, Tables, table_columns
 from vasc.streams import Streams
@@ -144,17 +147,81 @@ def test_a_leaf_has_no_ring_at_a_base(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "line",
-    [["stats"], ["render", "-o", "out.png"], ["animate", "-o", "out.gif"]],
-    ids=lambda x: x[0],
+    ("line", "words"),
+    [
+        (["stats"], "{path}: a stem has no blade"),
+        (["render", "-o", "out.png"], "{path}: is no stem, but a run of the kind 'synthetic'"),
+        (
+            ["animate", "-o", "out.gif"],
+            "{path}: films are made of leaves; draw it with vasc render",
+        ),
+    ],
+    ids=["stats", "render", "animate"],
 )
-def test_verbs_that_need_a_blade_say_so(path, line, capsys, monkeypatch):
+def test_verbs_that_need_a_blade_or_a_known_stem_say_so(path, line, words, capsys, monkeypatch):
     monkeypatch.chdir(path.parent)
     verb, *options = line
     assert main([verb, str(path), *options]) == 2
     told = capsys.readouterr()
-    assert told.err == f"{path}: a stem has no blade\n"
+    assert told.err == f"{words.format(path=path)}\n"
     assert not list(path.parent.glob("out*"))
+
+
+def test_what_looks_at_states_says_that_there_is_no_blade(recorded):
+    for look in (statistics, draw_leaf):
+        with pytest.raises(VascError, match="a stem has no blade"):
+            look(recorded[1][-1])
+
+
+class StemModel:
+    """The synthetic stem as a model."""
+
+    def __init__(self):
+        self.run = StemRun(LAST)
+
+    def initial_state(self, streams):
+        return next(self.run.states(streams))
+
+    def advance(self, state, streams):
+        return next(self.run.states(streams))
+
+    def restore(self, tables, step, streams):
+        self.run.restore(tables, step)
+        return self.run._state()
+
+    def is_finished(self, state):
+        return state.is_finished
+
+
+def experiment():
+    """An experiment whose parameters know nothing of growth or a blade."""
+    return SimpleNamespace(
+        kind="stem",
+        toml=synthetic.TOML,
+        record=synthetic.CONFIG,
+        parameters=SimpleNamespace(
+            seed=SEED, stream_names=NAMES, units=None, record=SimpleNamespace(perceived="nodes")
+        ),
+        model=StemModel,
+    )
+
+
+def test_an_experiment_on_a_stem_is_run_resumed_and_summed_up(tmp_path, recorded, monkeypatch):
+    @contextmanager
+    def repeatable(timeline):
+        yield StemModel(), Streams(SEED, NAMES)
+
+    monkeypatch.setattr(experiments, "repeatable", repeatable)
+    path = tmp_path / "run.h5"
+    begun = experiments.run(experiment(), path, steps=70)
+    assert (begun.steps, begun.stop_reason) == (70, None)
+    summary = experiments.resume(path)
+    assert (summary.steps, summary.stop_reason) == (LAST, "no_sources")
+    assert summary.nodes_outside == 0
+    assert contents(path) == contents(recorded[0])
+    with Timeline(path) as timeline:
+        assert timeline.growth == "none"
+    assert experiments.verify(path) == []
 
 
 @pytest.mark.parametrize("last_step", [0, 1, 2, LAST])

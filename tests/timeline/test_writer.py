@@ -186,16 +186,16 @@ def test_missing_folders_and_folders_are_refused(tmp_path):
 def test_a_failed_creation_leaves_no_file(tmp_path):
     with pytest.raises(TypeError):
         create(tmp_path / "run.h5", config={"bad": object()})
-    with pytest.raises(AttributeError):
-        create(tmp_path / "run.h5", blade=None)
+    with pytest.raises(TypeError):
+        create(tmp_path / "run.h5", units={"length": object()})
     assert os.listdir(tmp_path) == []
 
 
 def test_a_failed_forced_creation_keeps_the_old_file(tmp_path):
     path = tmp_path / "run.h5"
     path.write_text("precious")
-    with pytest.raises(AttributeError):
-        create(path, blade=None, force=True)
+    with pytest.raises(TypeError):
+        create(path, units={"length": object()}, force=True)
     assert path.read_text() == "precious"
     assert os.listdir(tmp_path) == ["run.h5"]
 

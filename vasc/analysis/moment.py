@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Protocol
 
 from vasc.canals import CanalSet
+from vasc.errors import VascError
 from vasc.network import VeinNetwork
 from vasc.sources import SourceSet
 
@@ -24,8 +25,8 @@ class Moment(Protocol):
         """Model time."""
 
     @property
-    def blade(self) -> Blade:
-        """The blade, in real size."""
+    def blade(self) -> Blade | None:
+        """The blade, in real size; None, or an error, where there is none."""
 
     @property
     def network(self) -> VeinNetwork:
@@ -38,3 +39,17 @@ class Moment(Protocol):
     @property
     def canals(self) -> CanalSet:
         """The canals, in real size."""
+
+
+def blade_of(moment: Moment) -> Blade:
+    """Give the blade of a moment.
+
+    Raises
+    ------
+    VascError
+        If it has none, being one of a stem.
+    """
+    blade = moment.blade
+    if blade is None:
+        raise VascError("a stem has no blade")
+    return blade

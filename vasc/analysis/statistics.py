@@ -6,7 +6,7 @@ from typing import Any
 
 from vasc.analysis.areoles import find_areoles
 from vasc.analysis.density import vein_density, vein_length
-from vasc.analysis.moment import Moment
+from vasc.analysis.moment import Moment, blade_of
 from vasc.analysis.topology import count_components, count_cycles, free_ends, junction_degree
 from vasc.analysis.units import LengthUnit
 
@@ -31,10 +31,15 @@ def statistics(moment: Moment, units: Mapping[str, Any] | None = None) -> dict[s
         areole_area_cv`` (standard deviation over mean), ``free_ends,
         junction_degree`` (degree, as text, to its share of the junctions).
         What cannot be said of a pattern without areoles is None.
+
+    Raises
+    ------
+    VascError
+        If there is no blade, as in a stem.
     """
     unit = LengthUnit.from_table(units)
     scale = unit.per_segment
-    network, blade = moment.network, moment.blade
+    network, blade = moment.network, blade_of(moment)
     components = count_components(network)
     areoles = find_areoles(network)
     return {

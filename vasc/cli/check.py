@@ -1,5 +1,6 @@
 """``vasc check``: a run held against what is expected of it."""
 
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,6 +10,7 @@ from vasc.cli.options import AsJson, Force, RunFile
 
 if TYPE_CHECKING:
     from vasc.validation.arabidopsis import SequenceReport
+    from vasc.validation.stem_phyllotaxis import ConnectivityReport
 
 EXAMPLES = ("vasc check sequence arabidopsis.h5", "vasc check connectivity stem.h5")
 """Examples of the group."""
@@ -19,7 +21,10 @@ SEQUENCE_EXAMPLES = (
 )
 """Examples of ``vasc check sequence``."""
 
-CONNECTIVITY_EXAMPLES = ("vasc check connectivity stem-golden-5-8.h5 --json",)
+CONNECTIVITY_EXAMPLES = (
+    "vasc check connectivity stem.h5 -o unrolled.png",
+    "vasc check connectivity stem.h5 --json",
+)
 """Examples of ``vasc check connectivity``."""
 
 WORDS = {True: "pass", False: "FAIL", None: "open"}
@@ -62,42 +67,6 @@ def sequence(
         raise typer.Exit(1)
 
 
-def connectivity(path: RunFile, as_json: AsJson = False) -> None:
-    """Hold the veins of a stem against what its phyllotaxis predicts.
-
-    Exit code 1 if they connect other primordia than predicted, or too few of them do.
-    """
-    from vasc.cli.printing import print_json, print_pairs, print_table
-    from vasc.timeline import Timeline
-    from vasc.validation.stem_phyllotaxis import check_connectivity
-    from vasc.validation.stem_phyllotaxis.reading import read_stem
-
-    with Timeline(path) as timeline:
-        report = check_connectivity(read_stem(timeline))
-    found = report.as_json()
-    if as_json:
-        print_json(found)
-    else:
-        shown = ("divergence", "rise", "radius", "ratio", "primordia", "judged", "sympodia")
-        pairs = {key: found[key] for key in shown}
-        pairs |= {
-            "pair": tuple(found["pair"]),
-            "share with exactly the pair": f"{found['fraction']:.3f}",
-            "predicted": tuple(found["predicted"]),
-            "predicted along the surface": tuple(found["predicted_on_surface"]),
-            "parastichies": tuple(found["parastichies"]["steps"]),
-        }
-        print_pairs(pairs)
-        if found["exceptions"]:
-            rows = [tuple(one.values()) for one in found["exceptions"]]
-            print_table(tuple(found["exceptions"][0]), rows)
-        if report.tie is not None:
-            typer.echo(report.tie.explanation)
-        typer.echo(f"{path}: {'pass' if report.passed else 'FAIL'}")
-    if not report.passed:
-        raise typer.Exit(1)
-
-
 def _print(report: "SequenceReport", path: Path, output: Path | None) -> None:
     """Write the report for people."""
     from vasc.cli.printing import print_table, shown
@@ -135,3 +104,98 @@ def _print(report: "SequenceReport", path: Path, output: Path | None) -> None:
 def _mark(row: dict[str, str]) -> str:
     """Mark a threshold that is in no paper."""
     return "*" if row["threshold_from"] == "ours" else ""
+
+
+def connectivity(
+    path: RunFile,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output", "-o", metavar="PICTURE", help="Draw the stem unrolled: png, svg or pdf."
+        ),
+    ] = None,
+    force: Force = False,
+    as_json: AsJson = False,
+) -> None:
+    """Hold the veins of a stem against what its phyllotaxis predicts.
+
+    Exit code 1 if they connect other primordia than predicted, or too few of them do.
+    """
+    from vasc.cli.printing import print_json
+    from vasc.cli.run import check_picture
+    from vasc.timeline import Timeline
+    from vasc.validation.stem_phyllotaxis import check_connectivity, reading
+
+    if output is not None:
+        from vasc.render.saving import PICTURE_SUFFIXES, checked_output
+
+        check_picture(output, force=force)
+        checked_output(output, PICTURE_SUFFIXES)
+    with Timeline(path) as timeline:
+        graph = reading.read_stem(timeline)
+    report = check_connectivity(graph)
+    if output is not None:
+        from vasc.render import draw_unrolled
+
+        draw_unrolled(
+            graph.positions,
+            graph.segments,
+            graph.primordia,
+            output,
+            radius=graph.radius,
+            title=f"{path.name}: {_pair(report.pair)}, predicted {_pair(report.prediction.pair)}",
+        )
+    if as_json:
+        print_json(report.as_json() | {"files": [] if output is None else [str(output)]})
+    else:
+        _print_connectivity(report, path, output)
+    if not report.passed:
+        raise typer.Exit(1)
+
+
+def _print_connectivity(report: "ConnectivityReport", path: Path, output: Path | None) -> None:
+    """Write the report on connectivity for people."""
+    from vasc.cli.printing import print_pairs, print_table, shown
+
+    found = report.as_json()
+    low, high = (shown(end) for end in found["interval"])
+    parastichies = found["parastichies"]
+    print_pairs(
+        {
+            "divergence, in degrees": found["divergence"],
+            "R, H, in D": f"{shown(found['radius'])}, {shown(found['rise'])}",
+            "R/H": f"{found['ratio']:.4g}; the prediction holds from {low} to {high}",
+            "primordia": f"{found['primordia']}; judged: {_span(found['judged'])}",
+            "connected": _pair(report.pair),
+            "predicted": f"{_pair(report.prediction.pair)}; on the surface it would be"
+            f" {_pair(report.surface.pair)}",
+            "contact parastichies": f"{_pair(parastichies['numbers'])},"
+            f" {'opposed' if parastichies['opposed'] else 'not opposed'}",
+            "separate sympodia": found["sympodia"],
+            "exactly the pair": f"{found['fraction']:.3f} of those judged",
+        }
+    )
+    if report.exceptions:
+        typer.echo("\nexceptions")
+        rows = [
+            (one.primordium, _pair(one.steps), _pair(one.missing), _pair(one.extra))
+            for one in report.exceptions
+        ]
+        print_table(("primordium", "connected to", "missing", "extra"), rows)
+    if report.tie is not None:
+        typer.echo(f"\n{WORDS[report.tie.passed]}: {report.tie.explanation}")
+    if output is not None:
+        typer.echo(f"written: {output}")
+    asked = "the rule of the tie" if report.tie else f"a share of {report.least_fraction:g}"
+    typer.echo(f"{path}: {WORDS[report.passed]}; asked: the predicted pair, and {asked}")
+
+
+def _pair(steps: Iterable[int]) -> str:
+    """Write steps as the papers do; a dash for none."""
+    text = ", ".join(str(step) for step in steps)
+    return f"({text})" if text else "-"
+
+
+def _span(ends: Sequence[int]) -> str:
+    """Write the first and the last of a range."""
+    return f"{ends[0]} to {ends[-1]}"

@@ -37,6 +37,7 @@ LENGTHS = (
     ("placement", "birth_distance"),
     ("refinement", "threshold"),
     ("arrival", "kill_distance"),
+    ("arrival", "join_distance"),
     ("perception", "influence_radius"),
     ("refinement", "longest"),
 )

@@ -27,7 +27,6 @@ from vasc.kernels.unrolled import (
     relatives_on_surface,
     separation,
 )
-from vasc.kernels.urquhart_3d import urquhart_pairs
 
 CELL_SIDE = 8.0
 """Side of a cell of the index, in lengths of a segment: some ten to twenty nodes a cell."""
@@ -244,20 +243,6 @@ def insert(old: Stem, start: int, length: float) -> Stem:
     lasting = lasting_pairs(positions, old.pairs, start, old.n_nodes, *links, period)
     near, far = divide(positions, found, *links, length, period)
     return join(old._replace(pairs=np.concatenate((lasting, far))), near)
-
-
-def insert_urquhart(old: Stem, start: int, length: float) -> Stem:
-    """Bring pairs and segments up to date as ``insert`` does, by Urquhart's approximation.
-
-    All pairs are found anew: by common Delaunay neighbours a pair that was lost can
-    come back. As with ``insert``, only nodes from ``start`` on are joined to others.
-    """
-    rows = urquhart_pairs(old.positions[: old.n_nodes])
-    is_new = rows[:, 1] >= start
-    links = (old.edges, old.newest, old.following)
-    near, far = divide(old.positions, rows[is_new], *links, length, 0.0)
-    nearer, farther = divide(old.positions, rows[~is_new], *links, length, 0.0)
-    return join(old._replace(pairs=np.concatenate((nearer, farther, far))), near)
 
 
 @compiled

@@ -10,6 +10,7 @@ from scipy.spatial import Delaunay, QhullError
 
 from vasc.kernels.compiled import compiled
 from vasc.kernels.relative_neighbors_3d import MARGIN, between
+from vasc.kernels.stem import Stem, divide, join
 
 
 def delaunay_pairs(points: NDArray[np.float64]) -> NDArray[np.int32]:
@@ -76,3 +77,17 @@ def urquhart_pairs(points: NDArray[np.float64]) -> NDArray[np.int32]:
     starts = np.searchsorted(both[order, 0], np.arange(len(points) + 1)).astype(np.int64)
     neighbors = np.ascontiguousarray(both[order, 1])
     return rows[_without_common(points, rows, starts, neighbors)]
+
+
+def insert(old: Stem, start: int, length: float) -> Stem:
+    """Bring pairs and segments up to date as ``stem.insert`` does, by Urquhart's approximation.
+
+    All pairs are found anew: by common Delaunay neighbours a pair that was lost can
+    come back. Here, too, only the nodes from ``start`` on are joined to others.
+    """
+    rows = urquhart_pairs(old.positions[: old.n_nodes])
+    is_new = rows[:, 1] >= start
+    links = (old.edges, old.newest, old.following)
+    near, far = divide(old.positions, rows[is_new], *links, length, 0.0)
+    nearer, farther = divide(old.positions, rows[~is_new], *links, length, 0.0)
+    return join(old._replace(pairs=np.concatenate((nearer, farther, far))), near)

@@ -60,22 +60,22 @@ class TaggedArrival(Arrival):
     """A source dies when every tagged vein has arrived or left (closed, section 4.3).
 
     The veins that arrived are joined where they met: to the nearest of them, if
-    not farther than two segments and not parent and child already.
+    not farther than the join distance and not parent and child already.
 
     Parameters
     ----------
-    kill_distance, segment_length : float
+    kill_distance, join_distance : float
         In D.
     influence_radius : float or None
         Veins farther from a source are not awaited; None: no limit, in D.
     """
 
     def __init__(
-        self, kill_distance: float, segment_length: float, influence_radius: float | None
+        self, kill_distance: float, join_distance: float, influence_radius: float | None
     ) -> None:
         super().__init__(kill_distance)
         self.influence_radius = np.inf if influence_radius is None else influence_radius
-        self.join_length = 2.0 * segment_length
+        self.join_distance = join_distance
 
     def reach(self, veins: Vasculature, moment: Moment) -> int:
         """Tag and remove sources, join the veins that met; gives the number of changes of state."""
@@ -128,7 +128,7 @@ class TaggedArrival(Arrival):
             return False
         (ax, ay), (bx, by) = veins.places("nodes")[[older, newer]].tolist()
         square = (ax - bx) * (ax - bx) + (ay - by) * (ay - by)
-        return bool(square <= (self.join_length / scale) ** 2)
+        return bool(square <= (self.join_distance / scale) ** 2)
 
 
 class ArrivalParameters(Parameters):
@@ -137,3 +137,21 @@ class ArrivalParameters(Parameters):
     kill_distance: float = quantity(
         "A vein not farther than this has reached a source (d_k in Table 4.1).", unit="D", gt=0.0
     )
+
+
+class TaggedArrivalParameters(ArrivalParameters):
+    """When a source that waits for several veins counts as reached, and what joins them."""
+
+    join_distance: float | None = quantity(
+        "Veins that have arrived at a source are joined unless they are farther apart than this;"
+        " by default two segment lengths. Where growth parts what has not been joined, twice the"
+        " kill distance closes every loop.",
+        unit="D",
+        default=None,
+        gt=0.0,
+    )
+
+    def arrival(self, segment_length: float, influence_radius: float | None) -> TaggedArrival:
+        """Give the arrival."""
+        join_distance = self.join_distance or 2.0 * segment_length
+        return TaggedArrival(self.kill_distance, join_distance, influence_radius)

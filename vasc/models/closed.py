@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from vasc.models.arrival import TaggedArrival
+from vasc.models.arrival import TaggedArrivalParameters
 from vasc.models.base import Venation
 from vasc.models.colonization import Colonization
 from vasc.models.perception import Attraction, RelativeParameters, UrquhartParameters
@@ -22,13 +22,15 @@ class ClosedVenation(Venation):
         "Which nodes a source attracts.", default=RelativeParameters()
     )
 
+    arrival: TaggedArrivalParameters = quantity("When sources are reached.")
+
     def model(self, folder: Path = Path()) -> Colonization[Attraction]:
         """Give the model; files are looked for in ``folder``."""
         kill_distance = self.arrival.kill_distance
         return Colonization(
             perception=self.perception.perception(kill_distance),
-            arrival=TaggedArrival(
-                kill_distance, self.extension.segment_length, self.perception.influence_radius
+            arrival=self.arrival.arrival(
+                self.extension.segment_length, self.perception.influence_radius
             ),
             **self.parts(folder),
         )

@@ -63,7 +63,7 @@ class UrquhartStemPerception(ChordPerception):
 
     def perceive(self, stem: "kernels.stem.Stem", start: int) -> "kernels.stem.Stem":  # type: ignore[name-defined]
         """Find all pairs anew."""
-        return kernels.stem.insert_urquhart(stem, start, self.segment_length)
+        return kernels.urquhart_3d.insert(stem, start, self.segment_length)
 
 
 class SurfacePerception(StemPerception):

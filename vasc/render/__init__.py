@@ -8,6 +8,7 @@ from vasc.render.saving import PICTURE_SUFFIXES, save
 from vasc.render.sequence import draw_sequence
 from vasc.render.stems import StemStyle, draw_stem
 from vasc.render.styles import COLOR_CHOICES, LeafStyle
+from vasc.render.transitions import draw_transitions
 from vasc.render.unrolled import UnrolledStyle, draw_unrolled
 
 __all__ = [
@@ -25,6 +26,7 @@ __all__ = [
     "draw_leaf",
     "draw_sequence",
     "draw_stem",
+    "draw_transitions",
     "draw_unrolled",
     "render",
     "save",

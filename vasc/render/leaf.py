@@ -11,7 +11,7 @@ import numpy as np
 from vasc.analysis.ancestry import Descent, descent
 from vasc.analysis.density import vein_length
 from vasc.analysis.elongation import stretched_pipes
-from vasc.analysis.moment import Moment
+from vasc.analysis.moment import Moment, blade_of
 from vasc.analysis.units import LengthUnit
 from vasc.analysis.widths import Pipes, WidthParameters, pipes, radii
 from vasc.arrays import Floats
@@ -191,14 +191,14 @@ def draw_leaf(
     if ax is None:
         if view is None:
             narrowest = narrowest_of(moment, color)
-            view = view_of(moment.blade, style, with_strip=has_strip, narrowest=narrowest)
+            view = view_of(blade_of(moment), style, with_strip=has_strip, narrowest=narrowest)
         ax = _new_axes(view, style)
     elif view is None:
-        view = _view_on(ax, moment.blade, style, has_strip)
+        view = _view_on(ax, blade_of(moment), style, has_strip)
     left, bottom, right, top = view.box
     ax.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
     ax.set_axis_off()
-    draw_blade(ax, moment.blade, style)
+    draw_blade(ax, blade_of(moment), style)
     painted = Paint(color, style, moment.step if last_step is None else last_step)
     if color == "state":
         painted = replace(painted, canals=moment.canals)
@@ -270,7 +270,7 @@ def _fit(
 ) -> WidthParameters:
     """Settle the radii left open."""
     length = vein_length(moment.network)
-    spacing = float(moment.blade.area) / length if length > 0.0 else float("inf")
+    spacing = float(blade_of(moment).area) / length if length > 0.0 else float("inf")
     scale = Scale(view.points_per_length, 72.0 * max(view.inches), spacing)
     return fit_widths(float(counted.nodes.max(initial=1.0)), widths, style, scale)
 
