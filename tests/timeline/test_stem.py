@@ -147,16 +147,23 @@ def test_a_leaf_has_no_ring_at_a_base(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "line",
-    [["stats"], ["render", "-o", "out.png"], ["animate", "-o", "out.gif"]],
-    ids=lambda x: x[0],
+    ("line", "words"),
+    [
+        (["stats"], "{path}: a stem has no blade"),
+        (["render", "-o", "out.png"], "{path}: is no stem, but a run of the kind 'synthetic'"),
+        (
+            ["animate", "-o", "out.gif"],
+            "{path}: films are made of leaves; draw it with vasc render",
+        ),
+    ],
+    ids=["stats", "render", "animate"],
 )
-def test_verbs_that_need_a_blade_say_so(path, line, capsys, monkeypatch):
+def test_verbs_that_need_a_blade_or_a_known_stem_say_so(path, line, words, capsys, monkeypatch):
     monkeypatch.chdir(path.parent)
     verb, *options = line
     assert main([verb, str(path), *options]) == 2
     told = capsys.readouterr()
-    assert told.err == f"{path}: a stem has no blade\n"
+    assert told.err == f"{words.format(path=path)}\n"
     assert not list(path.parent.glob("out*"))
 
 

@@ -105,7 +105,7 @@ def animate(
     write = _write_mp4 if output.suffix.lower() == ".mp4" else _write_gif
     with open_run(run) as timeline:
         if timeline.dimensions == 3:
-            raise VascError("films are made of leaves; draw a stem with `vasc render`")
+            raise VascError(f"{timeline.path}: films are made of leaves; draw it with vasc render")
         last = timeline.frame(-1)
         narrowest = narrowest_of(last, color)
         view = view_of(last.blade, style, side=film.pixels / DPI, narrowest=narrowest)
