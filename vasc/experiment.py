@@ -55,7 +55,7 @@ class Summary:
         Segments that joined two veins, and those of them that closed a loop.
     stalls_resolved : int
         Times the stall rule chose a direction.
-    nodes_outside : int
+    nodes_outside : int or None
         Nodes that lie outside the blade, seeds left out; 0 for a stem, which has none.
     wall_seconds : float
         Time this session took.
@@ -74,7 +74,7 @@ class Summary:
     joins: int
     loops: int
     stalls_resolved: int
-    nodes_outside: int
+    nodes_outside: int | None
     wall_seconds: float
     stop_reason: str | None
     is_interrupted: bool = False
@@ -296,7 +296,7 @@ def _summary(
         joins=kinds[EventKind.VEIN_JOINED],
         loops=kinds[EventKind.LOOP_CLOSED],
         stalls_resolved=kinds[EventKind.STALL_RESOLVED],
-        nodes_outside=0 if state.blade is None else _count_outside(state, state.blade),
+        nodes_outside=None if state.blade is None else _count_outside(state, state.blade),
         wall_seconds=time.perf_counter() - started,
         stop_reason=reason,
         is_interrupted=is_interrupted,

@@ -93,7 +93,7 @@ SUBJECTS = [
     ),
     Subject(
         "stem",
-        SYNTHETIC.format(batch=16, last_step=600, kind="StemRun"),
+        SYNTHETIC.format(batch=16, last_step=2400, kind="StemRun"),
         batch=16,
         seconds=0.6,
     ),

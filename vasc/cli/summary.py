@@ -26,21 +26,30 @@ def print_summary(summary: "Summary", files: list[Path], *, as_json: bool) -> No
     if as_json:
         print_json(json_summary(summary, files))
         return
-    stalls = summary.stalls_resolved
     print_pairs(
         {
             "steps": summary.steps,
             "nodes": summary.nodes,
             "segments": summary.segments,
-            "sources": f"{summary.sources_placed:,} placed, {summary.sources_left:,} left",
-            "joins": f"{summary.joins:,}, of which {summary.loops:,} closed a loop",
-            "stalls resolved": stalls,
-            "nodes outside the blade": summary.nodes_outside,
+            **_sources(summary),
             "wall time": f"{summary.wall_seconds:.2f} s",
             "ended": reason_text(summary),
             "written": ", ".join(f"{file} ({file_size(file.stat().st_size)})" for file in files),
         }
     )
+
+
+def _sources(summary: "Summary") -> dict[str, Any]:
+    """Give what became of sources: those of a leaf are drained, primordia stay."""
+    joins = f"{summary.joins:,}, of which {summary.loops:,} closed a loop"
+    if summary.nodes_outside is None:
+        return {"primordia": summary.sources_placed, "joins": joins}
+    return {
+        "sources": f"{summary.sources_placed:,} placed, {summary.sources_left:,} left",
+        "joins": joins,
+        "stalls resolved": summary.stalls_resolved,
+        "nodes outside the blade": summary.nodes_outside,
+    }
 
 
 def json_summary(summary: "Summary", files: list[Path]) -> dict[str, Any]:
