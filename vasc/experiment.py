@@ -56,7 +56,7 @@ class Summary:
     stalls_resolved : int
         Times the stall rule chose a direction.
     nodes_outside : int or None
-        Nodes that lie outside the blade, seeds left out; 0 for a stem, which has none.
+        Nodes that lie outside the blade, seeds left out; None for a stem, which has none.
     wall_seconds : float
         Time this session took.
     stop_reason : str or None

@@ -217,7 +217,7 @@ def test_an_experiment_on_a_stem_is_run_resumed_and_summed_up(tmp_path, recorded
     assert (begun.steps, begun.stop_reason) == (70, None)
     summary = experiments.resume(path)
     assert (summary.steps, summary.stop_reason) == (LAST, "no_sources")
-    assert summary.nodes_outside == 0
+    assert summary.nodes_outside is None
     assert contents(path) == contents(recorded[0])
     with Timeline(path) as timeline:
         assert timeline.growth == "none"
