@@ -27,7 +27,7 @@ def strand_radii(heights: Floats) -> Floats:
 
     Examples
     --------
-    >>> strand_radii(np.array([0.0, 10.0, 20.0])).tolist()
+    >>> strand_radii(np.array([0.0, 10.0, 20.0])).round(3).tolist()
     [1.0, 0.725, 0.45]
     """
     share = heights / max(float(heights.max(initial=0.0)), 1e-12)
