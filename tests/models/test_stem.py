@@ -174,6 +174,8 @@ def test_another_metric_connects_other_primordia():
         ({"internodes": [(0.0, 0.0), (0.5, 0.6), (1.0, 0.5)]}, "both numbers must be above"),
         ({"placement": {"rise": 0.5}}, "placement.rise is 0.5; it must be at least"),
         ({"placement": {"divergence": float("nan")}}, "finite"),
+        ({"placement": {"plastochron": 10**18}}, "less than or equal to 1000000"),
+        ({"placement": {"plastochron": 10**6}}, "would appear in step"),
         ({"placement": {"primordia": 0}}, "greater than or equal to 1"),
     ],
 )

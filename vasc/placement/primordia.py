@@ -4,9 +4,11 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import model_validator
 
 from vasc.arrays import Floats
 from vasc.domain import StemParameters
+from vasc.growth import MOST_STEPS
 from vasc.parameters import Parameters, quantity
 
 
@@ -55,8 +57,11 @@ class PhyllotaxisParameters(Parameters):
         unit="steps",
         default=None,
         ge=1,
+        le=MOST_STEPS,
     )
-    first_step: int = quantity("Step of the first primordia.", unit="steps", default=6, ge=1)
+    first_step: int = quantity(
+        "Step of the first primordia.", unit="steps", default=6, ge=1, le=MOST_STEPS
+    )
     angle_noise: float = quantity(
         "Standard deviation of each primordium's angle.",
         unit="degrees",
@@ -67,6 +72,18 @@ class PhyllotaxisParameters(Parameters):
     rise_noise: float = quantity(
         "Standard deviation of each primordium's height over the rise.", default=0.0, ge=0.0, le=0.5
     )
+
+    @model_validator(mode="after")
+    def _check(self) -> "PhyllotaxisParameters":
+        """Refuse primordia so late that no run sees them."""
+        n_levels = (self.primordia - 1) // self.per_level
+        last = self.first_step + n_levels * (self.plastochron or 1)
+        if last > MOST_STEPS:
+            raise ValueError(
+                f"plastochron is {self.plastochron}; the last of {self.primordia} primordia would"
+                f" appear in step {last:,}, and at most {MOST_STEPS:,} steps are allowed"
+            )
+        return self
 
     @property
     def is_noisy(self) -> bool:
