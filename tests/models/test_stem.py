@@ -172,6 +172,8 @@ def test_another_metric_connects_other_primordia():
         ({"domain": {"radii": [(0.0, 5.0), (0.0, 6.0)]}}, "heights must ascend"),
         ({"internodes": [(0.0, 0.0), (0.5, 0.6)]}, "the last must have the height 1"),
         ({"internodes": [(0.0, 0.0), (0.5, 0.6), (1.0, 0.5)]}, "both numbers must be above"),
+        ({"internodes": [(0.0, 0.0), (1.0, 1e300)]}, "no height may become more than 100"),
+        ({"placement": {"rise": 1e300}}, "less than or equal to 100000"),
         ({"placement": {"rise": 0.5}}, "placement.rise is 0.5; it must be at least"),
         ({"placement": {"divergence": float("nan")}}, "finite"),
         ({"placement": {"plastochron": 10**18}}, "less than or equal to 1000000"),

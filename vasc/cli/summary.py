@@ -63,6 +63,8 @@ def reason_text(summary: "Summary") -> str:
     """Say why a run ended."""
     if summary.stop_reason is None:
         return f"not finished; `vasc resume {summary.output}` goes on"
+    if summary.nodes_outside is None and summary.stop_reason == "no_sources":
+        return "all primordia have appeared and are connected"
     return REASONS.get(summary.stop_reason, summary.stop_reason)
 
 

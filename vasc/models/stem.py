@@ -26,6 +26,10 @@ from vasc.state import State, Tables
 from vasc.streams import Streams
 
 
+MOST_STRETCH = 100.0
+"""Height after growth of internodes at most, over that of the stem."""
+
+
 @dataclass(frozen=True)
 class StemColonization(Model):
     """Veins of a stem, which colonize the space between primordia as these appear.
@@ -198,6 +202,11 @@ class StemVasculature(Parameters):
                 " first must be [0, 0], and the last must have the height 1"
             )
         for row, ((a, b), (c, d)) in enumerate(pairwise(pairs), start=1):
+            if d > MOST_STRETCH:
+                raise ValueError(
+                    f"internodes[{row}] is {[c, d]}; no height may become more than"
+                    f" {MOST_STRETCH:g} times that of the stem"
+                )
             if c <= a or d <= b:
                 raise ValueError(
                     f"internodes[{row}] is {[c, d]}; both numbers must be above those of {[a, b]}"

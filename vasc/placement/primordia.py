@@ -48,7 +48,7 @@ class PhyllotaxisParameters(Parameters):
         gt=-360.0,
         lt=360.0,
     )
-    rise: float = quantity("Height from one level to the next (H).", unit="D", gt=0.0)
+    rise: float = quantity("Height from one level to the next (H).", unit="D", gt=0.0, le=1e5)
     primordia: int = quantity("How many primordia appear.", default=40, ge=1, le=100_000)
     per_level: int = quantity("Primordia at each level, evenly around it.", default=1, ge=1, le=64)
     plastochron: int | None = quantity(
