@@ -25,7 +25,6 @@ from vasc.placement import PhyllotaxisParameters
 from vasc.state import State, Tables
 from vasc.streams import Streams
 
-
 MOST_STRETCH = 100.0
 """Height after growth of internodes at most, over that of the stem."""
 
