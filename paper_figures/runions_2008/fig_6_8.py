@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from panels import output_of
-from stems import draw_pairs, grown_stem
+from stems import draw_pairs, grown_pairs
 
 from vasc.render import save
 
@@ -26,11 +26,7 @@ N_PRIMORDIA = (36, 26, 20, 12)
 
 def main(output: Path) -> None:
     """Draw the figure."""
-    stems = [
-        (words, grown_stem(name, f"placement.primordia={n_primordia}"))
-        for name, words, n_primordia in zip(CONFIGS, WORDS, N_PRIMORDIA, strict=True)
-    ]
-    save(draw_pairs(stems), output)
+    save(draw_pairs(grown_pairs(CONFIGS, WORDS, N_PRIMORDIA)), output)
 
 
 if __name__ == "__main__":

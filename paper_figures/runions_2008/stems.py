@@ -55,6 +55,16 @@ def grown_stem(name: str, *overrides: str) -> Grown:
     )
 
 
+def grown_pairs(
+    names: Sequence[str], words: Sequence[str], n_primordia: Sequence[int]
+) -> list[tuple[str, Grown]]:
+    """Grow bundled stems up to numbers of primordia, each with its words."""
+    return [
+        (said, grown_stem(name, f"placement.primordia={number}"))
+        for name, said, number in zip(names, words, n_primordia, strict=True)
+    ]
+
+
 def lifted(stem: Grown, heights: NDArray) -> Grown:
     """Give a stem whose nodes have moved to other heights."""
     positions = stem.positions.copy()

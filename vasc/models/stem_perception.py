@@ -80,7 +80,7 @@ class SurfacePerception(StemPerception):
     def __init__(self, segment_length: float, radius: float) -> None:
         super().__init__(segment_length)
         self.radius = radius
-        self.period = 2.0 * np.pi * radius
+        self.period = kernels.cylinder.circumference(radius)
 
     def stem(self) -> "kernels.stem.Stem":  # type: ignore[name-defined]
         """Give a stem without nodes."""

@@ -48,12 +48,9 @@ class StrandRecord:
 
     def add_ring(self, radius: float, length: float, perception: StemPerception) -> None:
         """Begin with the ring of the hypocotyl: nodes not farther apart than a segment is long."""
-        n_nodes = int(np.ceil(2.0 * np.pi * radius / length))
-        angles = 2.0 * np.pi * np.arange(n_nodes) / n_nodes
-        across, up = radius * np.cos(angles), radius * np.sin(angles)
-        positions = np.stack([across, up, np.zeros(n_nodes)], axis=1)
+        positions = kernels.cylinder.ring(radius, length)
         self.stem = kernels.stem.place(self.stem, perception.places(positions), None)
-        self.ring = np.arange(n_nodes, dtype=np.int32)
+        self.ring = np.arange(len(positions), dtype=np.int32)
 
     def add_primordia(self, step: int, numbers: np.ndarray, perception: StemPerception) -> None:
         """Let primordia appear; each is a source and a node."""
