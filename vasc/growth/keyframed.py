@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vasc import kernels
 from vasc.arrays import Floats, Points
 from vasc.errors import ConfigError
-from vasc.growth.base import MARGIN_SPACING, MOST_STEPS, Deformation
+from vasc.growth.base import MARGIN_SPACING, Deformation, last_step_of
 
 N_COLUMNS = 5
 """Control points across the blade; with five, a row bends as a parabola does."""
@@ -45,12 +45,7 @@ class KeyframedGrowth(Deformation):
         self.step_duration = step_duration
         self._latest_rows: tuple[int, NDArray[np.float64]] | None = None
         n_steps = float(times[-1]) / step_duration
-        if n_steps > MOST_STEPS:
-            raise ConfigError(
-                f"growth.step_duration = {step_duration:g}: growth would take {n_steps:.3g}"
-                f" steps; allowed are {MOST_STEPS:,}"
-            )
-        self._last_step = int(n_steps) + (int(n_steps) < n_steps)
+        self._last_step = last_step_of(n_steps, "growth.step_duration", step_duration)
         self.surface = kernels.bspline.surface(frames.shape[2], N_COLUMNS)
         self._refuse_folds()
         margin, n_base = self._margin()
