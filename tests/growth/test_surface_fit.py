@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from vasc import kernels
 from vasc.errors import ConfigError, OutlineError
 from vasc.growth.half_outlines import distances_to, half_outline, nearest_on
 from vasc.growth.outline_frames import OutlineFrames
 from vasc.growth.surface_fit import Landmark, _Fit, fit_keyframes
-from vasc.growth.surfaces import COLUMNS, Places, grid_places, heights_of_rows, margin_places
+from vasc.growth.surfaces import N_COLUMNS, Places, grid_places, heights_of_rows, margin_places
 
 MIRROR = np.array([-1.0, 1.0])
 # three ages of the first leaf of Arabidopsis: y, w and s of nine rows
@@ -54,18 +55,12 @@ def fitted():
     return fit_keyframes(RINGS, TIMES, landmarks_of(MARKS))
 
 
-def test_a_surface_is_the_tensor_product_of_its_control_points():
-    from scipy.interpolate import NdBSpline
-
-    from vasc.growth.surfaces import knots
-
+def test_a_surface_is_that_of_the_runs():
     c, v = np.random.default_rng(1).uniform([-1.0, 0.0], [1.0, 1.0], (50, 2)).T
-    y, w, s = ROWS[1].T
-    control = np.stack([w[:, None] * COLUMNS, y[:, None] + s[:, None] * COLUMNS**2], axis=2)
-    twin = NdBSpline((knots(9, 0.0, 1.0), knots(5, -1.0, 1.0)), control, 3)
-    np.testing.assert_allclose(
-        Places(c, v, 9).positions(ROWS[1]), twin(np.stack([v, c], axis=1)), atol=1e-12
-    )
+    shape = kernels.bspline.surface(9, N_COLUMNS)
+    rows = np.ascontiguousarray(ROWS[1].T)
+    twin = kernels.bspline.evaluate(shape, rows, np.stack([c, v], axis=1))
+    np.testing.assert_allclose(Places(c, v, 9).positions(ROWS[1]), twin, atol=1e-12)
 
 
 def test_derivatives_are_those_of_differences():

@@ -9,9 +9,7 @@ from vasc import kernels
 from vasc.arrays import Floats, Points
 from vasc.errors import ConfigError
 from vasc.growth.base import MARGIN_SPACING, Deformation, last_step_of
-
-N_COLUMNS = 5
-"""Control points across the blade; with five, a row bends as a parabola does."""
+from vasc.growth.surfaces import N_COLUMNS
 
 CHECKED = (21, 121)
 """Points across and along the half blade at which the surface must not fold."""
