@@ -3,13 +3,13 @@
 import numpy as np
 
 from vasc.models import MODELS
-from vasc.placement import empty_circles
+from vasc.placement.room import Room
 from vasc.simulation import simulate
 from vasc.streams import Streams
 
 
 def test_a_circle_within_an_isogonic_blade_is_where_its_room_is(monkeypatch):
-    whole = empty_circles.Room.fill
+    whole = Room.fill
 
     def fill(room, place):
         gap = np.sqrt(((room._sites - place) ** 2).sum(axis=1)).min()
@@ -21,7 +21,7 @@ def test_a_circle_within_an_isogonic_blade_is_where_its_room_is(monkeypatch):
         )
         whole(room, place)
 
-    monkeypatch.setattr(empty_circles.Room, "fill", fill)
+    monkeypatch.setattr(Room, "fill", fill)
     config = {
         "kind": "closed",
         "domain": {"shape": "ovate", "length": 12.0},
