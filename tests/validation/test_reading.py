@@ -9,7 +9,7 @@ import pytest
 from vasc import Timeline, VascError, load, run
 from vasc.validation.arabidopsis import check_sequence, read_story
 from vasc.validation.arabidopsis.features import mirror_distance, notch_depths
-from vasc.validation.arabidopsis.loops import is_within, polygon_area, shortest_path
+from vasc.validation.arabidopsis.loops import shortest_path
 from vasc.validation.arabidopsis.reading import birth_distance, first_perceived, node_owners
 from vasc.validation.arabidopsis.story import LoopStory
 
@@ -191,14 +191,6 @@ def test_the_shortest_way_is_by_length_and_not_by_number():
 def test_nodes_at_one_place_do_not_cut_a_way():
     places = np.array([[0.0, 0.0], [0.0, 0.0], [1.0, 0.0]])
     assert shortest_path(np.array([[0, 1], [1, 2]]), places, 0, 2).tolist() == [0, 1, 2]
-
-
-def test_areas_and_insides_of_polygons():
-    arrow = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 1.0], [0.0, 4.0]])
-    assert polygon_area(arrow) == polygon_area(arrow[::-1]) == 10.0
-    assert is_within(np.array([0.5, 2.0]), arrow)
-    assert not is_within(np.array([2.0, 2.0]), arrow)
-    assert not is_within(np.array([5.0, 2.0]), arrow)
 
 
 def test_mirror_distances():
