@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from vasc import Timeline, VascError, load, run
+from vasc.network import Origin
 from vasc.validation.arabidopsis import check_sequence, read_story
 from vasc.validation.arabidopsis.features import mirror_distance, notch_depths
 from vasc.validation.arabidopsis.loops import shortest_path
@@ -137,7 +138,7 @@ def test_nodes_of_refinement_belong_to_a_vein(darts):
     with Timeline(darts) as timeline:
         owners = node_owners(timeline)
         is_seed = timeline.table("nodes", "parent") == -1
-        assert (timeline.table("nodes", "origin") == 3).any()
+        assert (timeline.table("nodes", "origin") == Origin.REFINEMENT).any()
     assert owners[is_seed].tolist() == [0]
     # a half of a segment between seed and first node is of the vein, not of the seed
     assert (owners[~is_seed] > 0).all()
@@ -148,13 +149,11 @@ def test_the_first_set_of_a_source_is_that_of_its_birth(darts):
         sets = first_perceived(timeline)
         births = timeline.table("sources", "birth")
         node_births = timeline.table("nodes", "birth")
-        places = timeline.table("nodes", "position")
         assert set(sets) <= set(range(len(births)))
         assert sets
         for source, nodes in sets.items():
             assert len(set(nodes.tolist())) == len(nodes)
             assert (node_births[nodes] <= births[source]).all()
-        assert len(places) == len(node_births)
 
 
 def test_the_birth_distance_is_the_config_s_or_an_estimate(darts, given):

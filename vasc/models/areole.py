@@ -3,9 +3,9 @@
 from pathlib import Path
 from typing import Literal
 
-from vasc.models.base import LeafVenation
 from vasc.models.canals import CanalPerception, Canals
 from vasc.models.colonization import Colonization
+from vasc.models.leaf import LeafVenation
 from vasc.models.mesophyll import AnyMesophyll, MesophyllNever
 from vasc.models.strands import DrainingArrival, StrandParameters
 from vasc.parameters import quantity
