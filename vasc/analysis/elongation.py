@@ -72,7 +72,7 @@ class Elongation:
         self.widths = widths
 
     def _thinner_ends(self, network: VeinNetwork) -> Floats:
-        """Give for every node the width of its thinnest neighbour that is not new."""
+        """Give for every node the width of its thinnest neighbor that is not new."""
         known = np.full(network.n_nodes, np.inf)
         known[: len(self.widths)] = self.widths
         thinner = np.full(network.n_nodes, np.inf)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 MARGIN_SPACING = 1.0
-"""Greatest distance of neighbouring points of a deformed outline, in D."""
+"""Greatest distance of neighboring points of a deformed outline, in D."""
 
 MOST_STEPS = 1_000_000
 """Greatest number of steps that growth may take."""

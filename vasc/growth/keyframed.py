@@ -139,7 +139,7 @@ class KeyframedGrowth(Deformation):
                 span = self.times[min(index + 1, len(self.times) - 1)] - self.times[index]
                 time = self.times[index] + shares[worst] * span
                 raise ConfigError(
-                    f"growth.frames: the surface folds at time {time:.4g} at c ="
+                    f"growth: the surface folds at time {time:.4g} at c ="
                     f" {points[worst, 0]:.3g} (0 midline, 1 margin), v ="
                     f" {points[worst, 1]:.3g} (0 base, 1 tip): the"
                     f" areal stretch is {least[worst]:.3g} there; it must be above 0 at all times"

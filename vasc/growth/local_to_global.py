@@ -62,8 +62,8 @@ class LocalToGlobalGrowth(Deformation):
         g_x: Floats,
         g_y: Floats,
         *,
-        steps_per_unit: int = 100,
-        end: float = 6.0,
+        steps_per_unit: int,
+        end: float,
     ) -> None:
         self.steps_per_unit = steps_per_unit
         # a time that is meant to be whole in steps may be a hair above

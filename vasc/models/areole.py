@@ -11,11 +11,11 @@ from vasc.models.strands import DrainingArrival, StrandParameters
 from vasc.parameters import quantity
 
 TIE_SHARE = 0.01
-"""Relative neighbours are as close as the closest within that share of the sources' spacing."""
+"""Relative neighbors are as close as the closest within that share of the sources' spacing."""
 
 
 class AreoleVenation(LeafVenation):
-    """A source is reached by its closest neighbour; from it veins go on to the others."""
+    """A source is reached by its closest neighbor; from it veins go on to the others."""
 
     kind: Literal["areole"] = "areole"
     extension: StrandParameters = quantity("How veins extend.", default=StrandParameters())

@@ -1,4 +1,4 @@
-"""Canals: polarized tissue between a source and its relative neighbours (Runions 2008, 5.2.3)."""
+"""Canals: polarized tissue between a source and its relative neighbors (Runions 2008, 5.2.3)."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -44,7 +44,7 @@ class Canals:
     Attributes
     ----------
     by_source : dict of int to list of Canal
-        Canals of a source, in the order of its relative neighbours.
+        Canals of a source, in the order of its relative neighbors.
     drained : dict of int to int
         The vein node that each source drained in the last step became.
     """
@@ -70,7 +70,7 @@ class Canals:
 
 
 class CanalPerception(Perception[Canals]):
-    """Relative neighbours are perceived when a source is born, and stored as canals.
+    """Relative neighbors are perceived when a source is born, and stored as canals.
 
     Only the canal of the closest of them differentiates at once, toward the
     source; the others do so away from it, once it is drained.
@@ -132,7 +132,7 @@ class CanalPerception(Perception[Canals]):
                     veins.log(moment.step, EventKind.CANAL_RETARGETED, canal.id, canal.node)
 
     def _induce(self, veins: Vasculature, moment: Moment, source: int) -> None:
-        """Store the canals of a new source; that of its closest relative neighbour begins."""
+        """Store the canals of a new source; that of its closest relative neighbor begins."""
         nodes, distances = relative_neighbors(veins, veins.places("sources")[source])
         table = veins.tables["perceived"]
         rows = table.append(step=moment.step, source=source, node=nodes)
@@ -150,7 +150,7 @@ class CanalPerception(Perception[Canals]):
         self.canals.change(veins, moment.step, closest, CanalState.INBOUND)
 
     def _closest(self, veins: Vasculature, nodes: Ids, distances: Floats) -> int:
-        """Give the row of the closest neighbour; of equals that of the oldest vein, the lowest."""
+        """Give the row of the closest neighbor; of equals that of the oldest vein, the lowest."""
         rows = np.flatnonzero(distances <= distances.min() + self.tie)
         places = veins.places("nodes")[nodes[rows]]
         # the seed and the first vein count as one
@@ -181,10 +181,10 @@ class CanalPerception(Perception[Canals]):
 
 
 def relative_neighbors(veins: Vasculature, place: Points) -> tuple[Ids, Floats]:
-    """Give the relative neighbours of a place among the vein nodes, nearest first.
+    """Give the relative neighbors of a place among the vein nodes, nearest first.
 
     Ties are resolved by height and distance from the midline, so that a leaf and
-    its mirror image have mirrored neighbours.
+    its mirror image have mirrored neighbors.
 
     Returns
     -------

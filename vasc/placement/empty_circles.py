@@ -15,7 +15,7 @@ from vasc.sources import Cause
 from vasc.vasculature import Vasculature
 
 MARGIN_SHARE = 0.15
-"""A centre at most that share of the birth distance from the outline is on the margin."""
+"""A centre at most that share of the birth distance from the outline is on the margin (ours)."""
 
 
 class EmptyCirclePlacement(Placement):

@@ -177,7 +177,7 @@ class Room:
         return centre
 
     def _marginal(self) -> Circles:
-        """Give the places on the margin that have most room among their neighbours."""
+        """Give the places on the margin that have most room among their neighbors."""
         growth, step = self.moment.growth, self.moment.step
         ring = len(self._margin)
         # all of them: the best place of a gap may be in an open cell that no end of it is in
@@ -188,7 +188,7 @@ class Room:
         is_peak = (radii >= np.roll(radii, 1)) & (radii >= np.roll(radii, -1)) & is_free
         is_peak &= radii > self.limit - MARGIN_SPACING / self.moment.scale
         peaks = np.flatnonzero(is_peak).astype(np.int32)
-        # the neighbouring gaps of each peak, but for those of the base
+        # the neighboring gaps of each peak, but for those of the base
         rows = np.unique(np.concatenate([peaks, (peaks - 1) % ring]))
         following = (rows + 1) % ring
         gaps = np.sqrt(((self._margin[following] - self._margin[rows]) ** 2).sum(axis=1))
