@@ -37,6 +37,9 @@ MERGE = 1e-3
 STILL = 1e-6
 """A sum of unit vectors shorter than this has no direction."""
 
+ROOM = 256
+"""Nodes and segments that a stem has room for at first."""
+
 
 class Stem(NamedTuple):
     """Vein nodes of a stem, segments and active pairs."""
@@ -63,7 +66,7 @@ class Stem(NamedTuple):
     """Circumference if distances are along the surface, 0 if they are straight."""
 
 
-def stem(length: float, period: float = 0.0, n_nodes: int = 256, n_edges: int = 256) -> Stem:
+def stem(length: float, period: float = 0.0) -> Stem:
     """Make a stem without nodes, with room for some.
 
     Parameters
@@ -73,22 +76,20 @@ def stem(length: float, period: float = 0.0, n_nodes: int = 256, n_edges: int = 
     period : float
         Circumference of the surface on which distances are taken; 0 for straight
         distances in space.
-    n_nodes, n_edges : int
-        Nodes and segments there is room for at first.
 
     Returns
     -------
     Stem
-        The empty stem.
+        The empty stem; it gets more room when it needs it.
     """
     return Stem(
-        positions=np.zeros((n_nodes, 3)),
-        parents=np.full(n_nodes, -1, dtype=np.int32),
-        edges=np.full((n_edges, 2), -1, dtype=np.int32),
-        newest=np.full(n_nodes, -1, dtype=np.int32),
-        following=np.full(2 * n_edges, -1, dtype=np.int32),
+        positions=np.zeros((ROOM, 3)),
+        parents=np.full(ROOM, -1, dtype=np.int32),
+        edges=np.full((ROOM, 2), -1, dtype=np.int32),
+        newest=np.full(ROOM, -1, dtype=np.int32),
+        following=np.full(2 * ROOM, -1, dtype=np.int32),
         pairs=np.empty((0, 2), dtype=np.int32),
-        tree=octree(CELL_SIDE * length, n_nodes),
+        tree=octree(CELL_SIDE * length, ROOM),
         n_nodes=0,
         n_edges=0,
         period=float(period),
@@ -137,20 +138,6 @@ def place(
     if parents is not None:
         new.parents[start:stop] = parents
     return new._replace(n_nodes=stop, tree=insert_points(new.tree, new.positions, start, stop))
-
-
-def restored(
-    positions: NDArray[np.float64],
-    parents: NDArray[np.int32],
-    edges: NDArray[np.int32],
-    pairs: NDArray[np.int32],
-    length: float,
-    period: float = 0.0,
-) -> Stem:
-    """Make a stem of recorded rows; it goes on to the same bytes as the one they are from."""
-    empty = stem(length, period, len(positions), len(edges))
-    joined = join(place(empty, positions, parents), edges)
-    return joined._replace(pairs=np.ascontiguousarray(pairs, dtype=np.int32).reshape(-1, 2))
 
 
 @compiled
