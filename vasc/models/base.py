@@ -2,7 +2,7 @@
 
 from abc import ABC, abstractmethod
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import Field, model_validator
 
@@ -26,6 +26,8 @@ from vasc.placement import DartParameters, EmptyCircleParameters, GivenParameter
 from vasc.state import State, Tables
 from vasc.streams import Streams
 
+B = TypeVar("B")
+
 
 class Model(ABC):
     """A model makes states: an initial one, and from each the next."""
@@ -45,6 +47,29 @@ class Model(ABC):
     def is_finished(self, state: State) -> bool:
         """Tell whether nothing is left to do."""
         return state.is_finished
+
+
+def newest(state: State, kind: type[B]) -> B:
+    """Give the buffers of a state, which must be the newest of its run.
+
+    Parameters
+    ----------
+    state : State
+        The state to go on from.
+    kind : type
+        What the model keeps its buffers in.
+
+    Raises
+    ------
+    ValueError
+        If the state has a successor already, or is of another model.
+    """
+    buffers = state.index
+    if not isinstance(buffers, kind):
+        raise ValueError(f"the state of step {state.step} is of another model")
+    if state.tables.counts() != state.counts:
+        raise ValueError(f"the state of step {state.step} has been advanced already")
+    return buffers
 
 
 AnyGrowth = Annotated[
