@@ -27,8 +27,11 @@ def read_stem(timeline: Timeline) -> StemGraph:
     """
     stem = recorded_stem(timeline)
     placement: dict[str, Any] = timeline.config["placement"]
-    n_primordia = len(stem.primordia)
-    middle = stem.positions[stem.primordia[[n_primordia // 2]], 2] if n_primordia else np.zeros(1)
+    domain: dict[str, Any] = timeline.config["domain"]
+    radii = stem.radii[stem.primordia]
+    # a stem without primordia has the radius of its base
+    known = radii if len(radii) else radii_at(domain, np.zeros(1))
+    ends = float(known.min()), float(known.max())
     return StemGraph(
         positions=stem.positions,
         segments=stem.segments,
@@ -36,6 +39,7 @@ def read_stem(timeline: Timeline) -> StemGraph:
         ring=stem.ring,
         divergence=radians(float(placement["divergence"])),
         rise=float(placement["rise"]),
-        radius=float(radii_at(timeline.config["domain"], middle)[0]),
+        radius=float(known[len(known) // 2]),
         per_level=int(placement["per_level"]),
+        radius_range=ends if ends[0] < ends[1] else None,
     )
