@@ -3,10 +3,8 @@
 from math import radians
 from typing import Any
 
-import numpy as np
-
 from vasc.timeline import Timeline
-from vasc.timeline.stems import radii_at, recorded_stem
+from vasc.timeline.stems import recorded_stem
 from vasc.validation.stem_phyllotaxis.stem_graph import StemGraph
 
 
@@ -27,10 +25,8 @@ def read_stem(timeline: Timeline) -> StemGraph:
     """
     stem = recorded_stem(timeline)
     placement: dict[str, Any] = timeline.config["placement"]
-    domain: dict[str, Any] = timeline.config["domain"]
-    radii = stem.radii[stem.primordia]
-    # a stem without primordia has the radius of its base
-    known = radii if len(radii) else radii_at(domain, np.zeros(1))
+    # a stem without primordia has the radius of its ring
+    known = stem.radii[stem.primordia if len(stem.primordia) else stem.ring]
     ends = float(known.min()), float(known.max())
     return StemGraph(
         positions=stem.positions,
