@@ -131,7 +131,22 @@ def join(old: Stem, joints: NDArray[np.int32]) -> Stem:
 def place(
     old: Stem, positions: NDArray[np.float64], parents: NDArray[np.int32] | None = None
 ) -> Stem:
-    """Add nodes that are not joined to anything yet, and put them into the index."""
+    """Add nodes that are not joined to anything yet, and put them into the index.
+
+    Parameters
+    ----------
+    old : Stem
+        The stem.
+    positions : ndarray of shape (k, 3), float64
+        Places of the new nodes, whose ids follow those of the old ones.
+    parents : ndarray of shape (k,), int32, optional
+        Nodes that they grew from; none of them grew if left out.
+
+    Returns
+    -------
+    Stem
+        To be followed by ``insert``.
+    """
     start, stop = old.n_nodes, old.n_nodes + len(positions)
     new = reserve(old, stop, 0)
     new.positions[start:stop] = positions
@@ -151,7 +166,20 @@ def lasting_pairs(
     following: NDArray[np.int32],
     period: float,
 ) -> NDArray[np.int32]:
-    """Give the pairs that are not joined and whose open lune has none of the new nodes in it."""
+    """Give the pairs that are not joined and whose open lune has none of the new nodes in it.
+
+    Parameters
+    ----------
+    positions, pairs, edges, newest, following, period
+        Parts of a :class:`Stem`.
+    start, stop : int
+        Ids of the new nodes.
+
+    Returns
+    -------
+    ndarray of shape (k, 2), int32
+        Rows of ``pairs`` in their order.
+    """
     kept = np.empty_like(pairs)
     n_kept = 0
     for row in range(len(pairs)):
@@ -181,7 +209,22 @@ def divide(
     length: float,
     period: float,
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Divide new pairs into those to be joined, nearer than a segment is long, and active ones."""
+    """Divide new pairs into those to be joined, nearer than a segment is long, and active ones.
+
+    Parameters
+    ----------
+    positions, edges, newest, following, period
+        Parts of a :class:`Stem`.
+    found : ndarray of shape (n, 2), int32
+        Relative neighbours; those that a segment joins already are left out.
+    length : float
+        Length of a segment.
+
+    Returns
+    -------
+    near, far : ndarray of shape (k, 2), int32
+        Rows of ``found`` in their order.
+    """
     near, far = np.empty_like(found), np.empty_like(found)
     n_near = n_far = 0
     limit = length * (1.0 + MARGIN)
@@ -284,8 +327,25 @@ def children(
     """Give places and parents of new nodes, and who is to be joined to whom.
 
     A new node that would lie on a node, old or just made, is not made: the two are
-    joined. New nodes have the ids from ``n_nodes`` on; rows of the last array are a
-    tip and the node it comes to.
+    joined.
+
+    Parameters
+    ----------
+    tree, positions, n_nodes, period
+        Parts of a :class:`Stem`.
+    tips, sums : ndarray
+        What ``directions`` gave.
+    length : float
+        Length of a segment.
+
+    Returns
+    -------
+    places : ndarray of shape (k, 3), float64
+        Of new nodes, whose ids are those from ``n_nodes`` on.
+    parents : ndarray of shape (k,), int32
+        Nodes that they grow from.
+    joints : ndarray of shape (m, 2), int32
+        Rows of a tip and the node that it comes to.
     """
     places = np.empty((len(tips), 3))
     parents = np.empty(len(tips), dtype=np.int32)
