@@ -291,6 +291,21 @@ class Timeline:
         start, stop = self._starts[name][step : step + 2].tolist()
         return self.opened.read(f"{MOTION}/{name}", start, stop)
 
+    def place_rows(self, name: str, step: int, start: int, stop: int) -> Points:
+        """Give rows ``start`` to ``stop`` of what :meth:`places` gives, and read no others.
+
+        Raises
+        ------
+        TimelineError
+            If the motion is not explicit, or the step has no such rows.
+        """
+        begin, end = (
+            self._starts[name][step : step + 2].tolist() if name in self._starts else (0, 0)
+        )
+        if not 0 <= start <= stop <= end - begin:
+            raise TimelineError(f"{self.path}: step {step} has no {name} {start} to {stop - 1}")
+        return self.opened.read(f"{MOTION}/{name}", begin + start, begin + stop)
+
     def areole_areas(self) -> dict[str, NDArray]:
         """Give the area of every areole at every step of its life.
 
