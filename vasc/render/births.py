@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -128,13 +128,18 @@ def _draw_points(
     axes: Axes, table: Mapping[str, NDArray], unit: LengthUnit, order_name: str
 ) -> None:
     """Draw a dot a vein; low orders are drawn last and largest, so that they are seen."""
+    from matplotlib.lines import Line2D
+
     n_colors = len(ORDER_COLORS)
     shown = np.clip(table["order"], 1, n_colors)
     size = float(np.clip(60.0 / np.sqrt(max(len(shown), 1)), 1.6, 5.0))
     present = np.unique(shown).tolist()
+    labels = [
+        f"{order}{'+' if order == n_colors else ''} ({int((shown == order).sum()):,})"
+        for order in present
+    ]
     for order in reversed(present):
         rows = shown == order
-        label = f"{order}+" if order == n_colors else str(order)
         axes.plot(
             table["step"][rows],
             table["height"][rows] * unit.per_segment,
@@ -145,13 +150,14 @@ def _draw_points(
             markeredgecolor="white",
             # a rim would eat small dots
             markeredgewidth=0.3 if size > 2.5 else 0.0,
-            label=f"{label} ({int(rows.sum()):,})",
             zorder=2.0 + 0.1 * (n_colors - order),
         )
-    lines, labels = axes.get_legend_handles_labels()
-    legend = axes.legend(
-        lines[::-1],
-        labels[::-1],
+    axes.legend(
+        [
+            Line2D([], [], linestyle="none", marker="o", color=ORDER_COLORS[order - 1], ms=5.0)
+            for order in present
+        ],
+        labels,
         title=f"{order_name} (veins)",
         loc="upper left",
         fontsize=TEXT_SIZE,
@@ -161,8 +167,6 @@ def _draw_points(
         frameon=False,
         labelcolor=INK,
     )
-    for handle in legend.legend_handles:
-        handle.set_markersize(5.0)
 
 
 def _draw_counts(axes: Axes, timeline: Timeline, last: int) -> None:
@@ -193,7 +197,7 @@ def _mark_spans(above: Axes, below: Axes, timeline: Timeline, last: int) -> None
         for at in events["step"][(events["kind"] == kind) & (events["step"] <= last)].tolist():
             for axes in (above, below):
                 axes.axvline(at, color=INK, linewidth=0.7, linestyle=(0.0, (4.0, 3.0)), zorder=1.8)
-            where = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
+            where: Any = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
             above.annotate(
                 name,
                 (at, 0.99),

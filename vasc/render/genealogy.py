@@ -118,7 +118,8 @@ def _shown(tree: Genealogy) -> _Shown:
         deepest = max(int(generations[members].max()), 1)
         for areole in members:
             white = PALEST * int(generations[areole]) / deepest
-            colors[areole] = to_hex(plain * (1.0 - white) + white)
+            red, green, blue = (plain * (1.0 - white) + white).tolist()
+            colors[areole] = to_hex((red, green, blue))
     return _Shown(tree, roots, loops, colors, _heights(tree, loops))
 
 
@@ -167,7 +168,8 @@ def _fill(axes: Axes, shown: _Shown, positions: Points) -> None:
         if parts:
             # of the largest part, so that a number never lies outside its loop
             largest = max(parts, key=lambda part: float(np.ptp(part, axis=0).prod()))
-            _number(axes, *largest.mean(axis=0), loop)
+            x, y = largest.mean(axis=0).tolist()
+            _number(axes, x, y, loop)
 
 
 def _draw_trees(axes: Axes, shown: _Shown, step: int) -> None:
