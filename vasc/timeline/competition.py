@@ -122,11 +122,13 @@ def _reached(timeline: Recorded, veins: Veins, pairs: Ids) -> NDArray[np.bool_]:
     joined = timeline.table("segments", "nodes")[events["subject"][is_join]]
     sources = np.concatenate([events["subject"][is_end], np.repeat(events["object"][is_join], 2)])
     arrived = firsts[np.concatenate([events["object"][is_end], joined.ravel()])]
-    # a branch that the source itself has caused came from the vein that it left
-    parents = timeline.table("nodes", "parent")[arrived]
-    is_branch = (timeline.table("nodes", "source")[arrived] == sources) & (parents >= 0)
-    n_nodes = np.int64(len(firsts))
-    met = np.concatenate(
-        [sources * n_nodes + arrived, sources[is_branch] * n_nodes + firsts[parents[is_branch]]]
-    )
-    return np.isin(pairs[:, 0] * n_nodes + pairs[:, 1], met)
+    parents, n_nodes = timeline.table("nodes", "parent"), np.int64(len(firsts))
+    attracted = pairs[:, 0] * n_nodes + pairs[:, 1]
+    is_met = np.zeros(len(pairs), dtype=bool)
+    while len(arrived):
+        met = sources * n_nodes + arrived
+        is_met |= np.isin(attracted, met)
+        # a branch that was not attracted itself came from a vein that was
+        climbs = ~np.isin(met, attracted) & (parents[arrived] >= 0)
+        sources, arrived = sources[climbs], firsts[parents[arrived[climbs]]]
+    return is_met
