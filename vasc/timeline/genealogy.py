@@ -107,8 +107,8 @@ def genealogy_of(timeline: Recorded, step: int = -1) -> tuple[Genealogy, "Loops 
 
     Where the model records areoles, it is read. Elsewhere it is found from the veins of the
     step: the segments that closed loops are taken out, the newest first, and the two faces
-    that each divides become one. Veins that cross without a node are taken as drawn apart,
-    and a network that lies in an areole of another is not counted as in it.
+    that each divides become one. Where veins cross without a node, the faces around the
+    crossing count as one; a network that lies in an areole of another is not seen as in it.
 
     Parameters
     ----------
