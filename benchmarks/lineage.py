@@ -2,8 +2,9 @@
 
 A run is recorded, and every question is asked by a child process that opens the
 file, asks and ends. Peak memory is the resident size that the system reports for the
-child, above that of a child that only opens the file; so what h5py holds counts, too.
-For comparison one child reads every column of the file.
+child, less its size when the file was open; so what h5py holds counts, too. This program
+loads nothing itself: a child begins with the peak of the program that starts it. For
+comparison one child reads every column of the file.
 """
 
 import argparse
@@ -13,10 +14,6 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
-
-from vasc.config import load
-from vasc.experiment import run
-from vasc.timeline import Timeline
 
 CASES = ("param-kill-distance-e", "orchid-leaf", "poplar-leaf", "arabidopsis-first-leaf")
 QUESTIONS = {
@@ -42,30 +39,30 @@ with Timeline(sys.argv[1]) as timeline:
     started = time.process_time()
     answer = {question}
     seconds = time.process_time() - started
-    print(before, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, seconds)
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    print(timeline.n_rows("nodes"), before, peak, seconds)
 """
 
 
 def ask(path, question):
-    """Peak memory in kB when the file is open and after the answer, and CPU seconds of it."""
+    """Nodes, peak memory in kB when the file is open and after the answer, and CPU seconds."""
     said = subprocess.run(
         [sys.executable, "-c", CHILD.format(question=question), str(path)],
         check=True,
         capture_output=True,
         text=True,
     ).stdout.split()
-    return int(said[0]), int(said[1]), float(said[2])
+    return int(said[0]), int(said[1]), int(said[2]), float(said[3])
 
 
 def measure(name, folder):
     """One row a question."""
     path = Path(folder) / f"{name}.h5"
-    run(load(name), path)
-    with Timeline(path) as timeline:
-        nodes = timeline.n_rows("nodes")
+    recorded = ("-m", "vasc", "run", name, "-o", str(path), "--no-figure", "--quiet")
+    subprocess.run([sys.executable, *recorded], check=True)
     rows = []
     for title, question in QUESTIONS.items():
-        opened, answered, seconds = ask(path, question)
+        nodes, opened, answered, seconds = ask(path, question)
         rows.append(
             {
                 "case": name,

@@ -16,6 +16,7 @@ from vasc.state import Tables, table_columns
 from vasc.timeline import guard, layout, opening
 from vasc.timeline.access import OpenFile
 from vasc.timeline.areas import areole_areas
+from vasc.timeline.cards import timeline_card
 from vasc.timeline.data_frames import data_frame
 from vasc.timeline.frame import Frame
 from vasc.timeline.layout import MOTION, TABLES, Motion, count_column
@@ -64,6 +65,10 @@ class Timeline:
     def __repr__(self) -> str:
         state = "complete" if self.is_complete else "not complete"
         return f"Timeline({str(self.path)!r}, frames={self.n_frames}, {state})"
+
+    def _repr_html_(self) -> str:
+        """Show the last step and a few facts in a notebook."""
+        return timeline_card(self)
 
     def close(self) -> None:
         """Close the file; what was read already stays usable."""
