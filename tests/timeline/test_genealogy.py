@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from reference.networks import network
 from shapely.geometry import Point, Polygon
 
@@ -104,6 +106,66 @@ def test_a_genealogy_by_hand():
     (beside,) = {int(k) for k in loops.beside(np.array([4])).tolist() if k >= 0}
     assert corners[beside] == {3, 4, 5, 8}
     assert [tree.alive_before(beside, step) for step in (8, 7, 5, 3)] == [beside, right, 0, -1]
+
+
+GRID = 4
+
+
+def grid_edges():
+    """Give the edges of a square grid of nodes."""
+    rows, columns = np.divmod(np.arange(GRID * GRID), GRID)
+    right = [(k, k + 1) for k in range(GRID * GRID) if columns[k] < GRID - 1]
+    return right + [(k, k + GRID) for k in range(GRID * GRID) if rows[k] < GRID - 1]
+
+
+def tree_and_chords(edges):
+    """Divide edges into those that connect, in their order, and those that close loops."""
+    group = list(range(GRID * GRID))
+    tree, chords = [], []
+    for a, b in edges:
+        (chords if group[a] == group[b] else tree).append((a, b))
+        group = [group[a] if label == group[b] else label for label in group]
+    return tree, chords
+
+
+class Grid(Drawn):
+    """Part of a grid: a tree, and some chords, each of which closes a loop at its step."""
+
+    points = np.stack(np.divmod(np.arange(GRID * GRID), GRID), axis=1).astype(float)
+
+    def __init__(self, tree, chords):
+        self.edges = tree + chords
+        self.closed = tuple((len(tree) + k, k) for k in range(len(chords)))
+        super().__init__()
+
+
+@given(st.permutations(grid_edges()))
+def test_areoles_of_any_grid_are_as_old_as_their_loops_and_add_up(edges):
+    tree, chords = tree_and_chords(edges)
+    grid = Grid(tree, chords)
+    whole = genealogy_of(grid)[0]
+    assert len(whole.boundaries) == len(chords) == (GRID - 1) ** 2
+    areas = {}
+    for n_closed in range(1, len(chords) + 1):
+        # what is known after each chord is the beginning of what is known in the end
+        known = genealogy_of(Grid(tree, chords[:n_closed]))[0]
+        assert np.array_equal(known.births, whole.births[: known.n_areoles])
+        assert np.array_equal(np.sort(known.parents), np.sort(whole.parents[: known.n_areoles]))
+        areas |= {
+            (n_closed, areole): Polygon(grid.points[ring]).area
+            for areole, ring in known.boundaries.items()
+        }
+        parts = np.flatnonzero(known.splits == n_closed - 1)
+        for areole in parts.tolist():
+            children = np.flatnonzero(known.parents == areole).tolist()
+            assert len(children) == 2
+            # in the grid before this chord, the two were one
+            before = sum(area for (n, _), area in areas.items() if n == n_closed - 1)
+            after = sum(area for (n, _), area in areas.items() if n == n_closed)
+            assert after == pytest.approx(before)
+    assert sum(Polygon(grid.points[ring]).area for ring in whole.boundaries.values()) == (
+        pytest.approx((GRID - 1) ** 2)
+    )
 
 
 def test_what_is_found_is_what_a_model_of_areoles_records(areole_run):

@@ -13,6 +13,7 @@ from vasc.config import load
 from vasc.errors import TimelineError, VascError
 from vasc.experiment import run
 from vasc.timeline import Fate, Timeline
+from vasc.timeline.access import OpenFile
 from vasc.timeline.lineage import LINEAGE_TABLES
 from vasc.timeline.moving import positions_at
 
@@ -200,3 +201,41 @@ print(*sorted({{"pandas", "numba", "matplotlib"}} & set(sys.modules)))
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
     assert said.stdout.strip() == ""
+
+
+READS = {
+    "ancestors": {"nodes/parent"},
+    "descendants": {"nodes/parent"},
+    "source_of": {"nodes/source"},
+    "life_table": {"sources/birth", *(f"events/{name}" for name in ("kind", "object", "step"))},
+}
+
+
+def test_a_question_reads_what_it_needs_and_no_more(tmp_path, monkeypatch):
+    record(tmp_path / "run.h5", 200, kind=ExplicitRun)
+    with Timeline(tmp_path / "run.h5") as timeline:
+        n_positions = timeline.n_places["nodes"]
+        n_veins = len(timeline.lineage.births()["vein"])
+    read = {}
+
+    def watched(opened, name, start, stop, out=None):
+        read[name] = read.get(name, 0) + stop - start
+        return original(opened, name, start, stop, out)
+
+    original = OpenFile.read
+    monkeypatch.setattr(OpenFile, "read", watched)
+    with Timeline(tmp_path / "run.h5") as timeline:
+        # opened: nothing but the header
+        assert read == {}
+        for question, columns in READS.items():
+            read.clear()
+            arguments = () if question == "life_table" else (400,)
+            getattr(Timeline(tmp_path / "run.h5").lineage, question)(*arguments)
+            assert set(read) - {"events/subject"} == columns
+        read.clear()
+        timeline.lineage.births()
+    # at each step, the rows between the first and the last vein born then, and the base
+    births = n_veins + 200
+    assert read["motion/nodes"] <= births + 5 * 200 < n_positions / 50
+    assert "motion/sources" not in read
+    assert "perceived/node" not in read
