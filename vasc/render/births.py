@@ -76,6 +76,7 @@ def draw_births(
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
+    from matplotlib.ticker import MaxNLocator
 
     style = LeafStyle() if style is None else style
     last = timeline.frame(step).step
@@ -95,6 +96,7 @@ def draw_births(
     below.set_ylabel("events", fontsize=TEXT_SIZE, color=INK)
     below.set_xlabel("step", fontsize=TEXT_SIZE, color=INK, loc="left")
     below.set_xlim(0, max(last, 1))
+    below.xaxis.set_major_locator(MaxNLocator(integer=True))
     for axes in (above, below):
         axes.tick_params(labelsize=TEXT_SIZE, colors=INK, width=0.5)
         axes.spines[["right", "top"]].set_visible(False)

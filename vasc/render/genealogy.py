@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 SIDE, TREES = 7.0, 5.0
 """Longer side of the blade's part, and width of the part with the trees, in inches."""
-LEFT, RIGHT, BELOW, ABOVE = 0.35, 0.15, 0.45, 0.3
+LEFT, RIGHT, BELOW, ABOVE = 0.35, 0.25, 0.45, 0.3
 """Room around the trees, in inches."""
 MOST_TREES = 24
 """First-order loops that have a colour, a number and a tree: those with most parts."""
@@ -175,6 +175,7 @@ def _fill(axes: Axes, shown: _Shown, positions: Points) -> None:
 def _draw_trees(axes: Axes, shown: _Shown, step: int) -> None:
     """Draw a line a life, and forks where areoles were split."""
     from matplotlib.collections import LineCollection
+    from matplotlib.ticker import MaxNLocator
 
     tree, heights = shown.tree, shown.heights
     drawn = np.flatnonzero(~np.isnan(heights))
@@ -197,6 +198,7 @@ def _draw_trees(axes: Axes, shown: _Shown, step: int) -> None:
     for loop in shown.loops:
         _number(axes, float(tree.births[loop]), float(heights[loop]), loop)
     axes.set_yticks([])
+    axes.xaxis.set_major_locator(MaxNLocator(nbins=7, integer=True))
     axes.spines[["left", "right", "top"]].set_visible(False)
     axes.tick_params(labelsize=TEXT_SIZE, colors=INK, width=0.5)
     axes.set_xlabel("step", fontsize=TEXT_SIZE, color=INK)
