@@ -2,6 +2,7 @@
 
 from vasc.models.areole import AreoleVenation
 from vasc.models.base import LeafVenation, Model, Venation
+from vasc.models.canalization import CanalizationParameters
 from vasc.models.closed import ClosedVenation
 from vasc.models.open import OpenVenation
 from vasc.models.stem import StemVasculature
@@ -12,12 +13,14 @@ MODELS: dict[str, type[Parameters]] = {
     "closed": ClosedVenation,
     "areole": AreoleVenation,
     "stem": StemVasculature,
+    "canalization": CanalizationParameters,
 }
 """Configs of our models by kind; ``vasc.config`` knows installed ones, too."""
 
 __all__ = [
     "MODELS",
     "AreoleVenation",
+    "CanalizationParameters",
     "ClosedVenation",
     "LeafVenation",
     "Model",

@@ -156,6 +156,10 @@ ROLES: dict[EventKind, EventRoles] = {
     EventKind.AREOLE_SPLIT: EventRoles("areoles", "segments"),
     EventKind.SOURCE_ENCLOSED: EventRoles("sources", "areoles"),
     EventKind.MESOPHYLL_EVENT: EventRoles(None, None),
+    EventKind.CANALS_SETTLED: EventRoles(None, None),
+    EventKind.CANALS_UNSETTLED: EventRoles(None, None),
+    # cells are rows of no table
+    EventKind.VORTEX_FORMED: EventRoles(None, None),
 }
 
 

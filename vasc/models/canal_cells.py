@@ -1,0 +1,131 @@
+"""Veins of a tissue: which cells are veins and sources, and their rows in the tables of a run."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vasc.arrays import NULL, Codes, Ids, Points
+from vasc.domain import Tissue
+from vasc.events import EventKind
+from vasc.fields import Role
+from vasc.network import Origin, SegmentKind
+from vasc.sources import Cause
+from vasc.state import Tables
+from vasc.states import Kind, SourceState
+
+
+class CanalCells:
+    """Cells that are veins or sources, kept in step with the tables.
+
+    Parameters
+    ----------
+    tissue : Tissue
+        The cells.
+    tables : Tables
+        Tables of the run: new ones, or those of a record.
+    """
+
+    def __init__(self, tissue: Tissue, tables: Tables) -> None:
+        self.tissue = tissue
+        self.tables = tables
+        self.nodes = np.full(tissue.n_cells, NULL, dtype=np.int32)
+        """The vein node in each cell, -1 if none."""
+        self.nodes[tissue.nearest_cells(tables["nodes"].view("material"))] = np.arange(
+            tables["nodes"].n_rows
+        )
+        self.source_cells: Ids = tissue.nearest_cells(tables["sources"].view("material"))
+        """The cell of each source."""
+        self.live = self._live()
+
+    @property
+    def roles(self) -> Codes:
+        """What each cell does, shape (n,)."""
+        roles = np.full(self.tissue.n_cells, Role.GROUND, dtype=np.int8)
+        roles[self.source_cells[self.live]] = Role.SOURCE
+        roles[self.is_vein] = Role.VEIN
+        return roles
+
+    @property
+    def is_vein(self) -> NDArray[np.bool_]:
+        """Which cells are vein, shape (n,)."""
+        return self.nodes >= 0
+
+    def add_veins(self, lines: list[Ids]) -> None:
+        """Begin with veins along lines of neighboring cells; lines that cross are one vein."""
+        for line in lines:
+            fresh = line[~self.is_vein[line]]
+            self._add_nodes(0, fresh, np.full(len(fresh), NULL), Origin.SEED, NULL)
+            pairs = np.stack([self.nodes[line[:-1]], self.nodes[line[1:]]], axis=1)
+            self._add_segments(0, pairs, SegmentKind.EXTENSION)
+
+    def add_sources(self, step: int, cells: Ids, cause: Cause) -> None:
+        """Let sources appear in cells."""
+        places = self.tissue.positions[cells]
+        rows = self.tables["sources"].append(
+            birth=np.full(len(cells), step), cause=cause, position=places, material=places
+        )
+        ids = np.arange(rows.start, rows.stop, dtype=np.int32)
+        self.source_cells = np.concatenate([self.source_cells, cells]).astype(np.int32)
+        self.live = np.concatenate([self.live, ids]).astype(np.int32)
+        self.log(step, EventKind.SOURCE_PLACED, ids, NULL)
+
+    def differentiate(self, step: int, source: int, cells: Ids) -> None:
+        """Make the canal from a source to a vein a vein; the source emits no more.
+
+        Parameters
+        ----------
+        step : int
+            The step.
+        source : int
+            The source.
+        cells : ndarray of shape (k,), int32
+            Cells from the source to a vein, which is the last.
+        """
+        root = int(self.nodes[cells[-1]])
+        fresh = cells[-2::-1]
+        first = self.tables["nodes"].n_rows
+        ids = np.arange(first, first + len(fresh), dtype=np.int32)
+        parents = np.concatenate([[root], ids[:-1]])[: len(fresh)]
+        self._add_nodes(step, fresh, parents, Origin.CANAL, source)
+        self._add_segments(step, np.stack([parents, ids], axis=1), SegmentKind.EXTENSION)
+        if len(fresh):
+            self.log(step, EventKind.VEIN_INITIATED, first, root)
+        self.live = self.live[self.live != source]
+        end = int(self.nodes[cells[0]])
+        self.log(step, EventKind.SOURCE_REMOVED, source, end)
+        self.tables["states"].append(
+            step=step, what=Kind.SOURCE, id=source, state=SourceState.DRAINED
+        )
+
+    def log(
+        self, step: int, kind: EventKind, subject: Ids | int, other: Ids | int = NULL
+    ) -> None:
+        """Append events."""
+        self.tables["events"].append(step=step, kind=kind, subject=subject, object=other)
+
+    def _add_nodes(
+        self, step: int, cells: Ids, parents: NDArray, origin: Origin, source: int
+    ) -> None:
+        """Append vein nodes at the centres of cells."""
+        places: Points = self.tissue.positions[cells]
+        rows = self.tables["nodes"].append(
+            birth=np.full(len(cells), step),
+            parent=parents,
+            origin=origin,
+            source=source,
+            position=places,
+            material=places,
+        )
+        self.nodes[cells] = np.arange(rows.start, rows.stop)
+
+    def _add_segments(self, step: int, pairs: Ids, kind: SegmentKind) -> None:
+        """Append segments."""
+        self.tables["segments"].append(nodes=pairs, birth=np.full(len(pairs), step), kind=kind)
+
+    def _live(self) -> Ids:
+        """Give the sources that are not drained."""
+        states = self.tables["states"]
+        is_end = (states.view("what") == Kind.SOURCE) & (
+            states.view("state") == SourceState.DRAINED
+        )
+        ids = np.arange(self.tables["sources"].n_rows, dtype=np.int32)
+        return np.setdiff1d(ids, states.view("id")[is_end]).astype(np.int32)
