@@ -82,6 +82,8 @@ def _outline(polygons: list[Points]) -> Blade:
 
     union = shapely.unary_union([shapely.Polygon(polygon) for polygon in polygons])
     parts = list(getattr(union, "geoms", [union]))
-    rings = [np.asarray(ring.coords)[:-1] for part in parts for ring in (part.exterior, *part.interiors)]
+    rings = [
+        np.asarray(ring.coords)[:-1] for part in parts for ring in (part.exterior, *part.interiors)
+    ]
     seeds = [polygons[0].mean(axis=0)]
     return Blade.from_rings(rings, seeds)

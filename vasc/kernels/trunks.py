@@ -6,9 +6,7 @@ from numpy.typing import NDArray
 from vasc.arrays import Floats, Ids
 
 
-def trunk(
-    walls: Ids, flux: Floats, start: int, is_end: NDArray[np.bool_]
-) -> tuple[Ids, Ids, bool]:
+def trunk(walls: Ids, flux: Floats, start: int, is_end: NDArray[np.bool_]) -> tuple[Ids, Ids, bool]:
     """Follow the largest flux from cell to cell until a cell where it ends.
 
     Parameters

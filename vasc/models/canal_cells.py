@@ -96,9 +96,7 @@ class CanalCells:
             step=step, what=Kind.SOURCE, id=source, state=SourceState.DRAINED
         )
 
-    def log(
-        self, step: int, kind: EventKind, subject: Ids | int, other: Ids | int = NULL
-    ) -> None:
+    def log(self, step: int, kind: EventKind, subject: Ids | int, other: Ids | int = NULL) -> None:
         """Append events."""
         self.tables["events"].append(step=step, kind=kind, subject=subject, object=other)
 

@@ -151,9 +151,7 @@ class Canalization(Model):
         placed = np.flatnonzero(kinds == EventKind.SOURCE_PLACED)
         return len(noted) > 0 and (len(placed) == 0 or bool(noted[-1] > placed[-1]))
 
-    def differentiate(
-        self, cells: CanalCells, step: int, flux: Floats, carriers: Floats
-    ) -> None:
+    def differentiate(self, cells: CanalCells, step: int, flux: Floats, carriers: Floats) -> None:
         """Make veins of the canals that lead from sources to veins, in the order of sources."""
         for source in cells.live.tolist():
             start = int(cells.source_cells[source])
@@ -191,9 +189,7 @@ class Canalization(Model):
         cells = CanalCells(self.tissue, tables)
         fields = tables.past.fields(step)
         events = tables["events"]
-        ends = np.isin(
-            events.view("kind"), [EventKind.CANALS_SETTLED, EventKind.CANALS_UNSETTLED]
-        )
+        ends = np.isin(events.view("kind"), [EventKind.CANALS_SETTLED, EventKind.CANALS_UNSETTLED])
         rests = events.view("step")[ends]
         is_settled = step in rests or (step == 0 and not fields.flux.any())
         earlier = rests[rests < step]

@@ -199,7 +199,9 @@ def descent(record: Record) -> Findings:
     is_seed = origins == Origin.SEED
     is_bad = is_seed & (parents != NULL)
     yield from bad_rows("descent", "nodes/parent", is_bad, parents, "a seed has no parent")
-    is_bad = np.isin(origins, [Origin.EXTENSION, Origin.REFINEMENT, Origin.CANAL]) & (parents == NULL)
+    is_bad = np.isin(origins, [Origin.EXTENSION, Origin.REFINEMENT, Origin.CANAL]) & (
+        parents == NULL
+    )
     yield from bad_rows("descent", "nodes/parent", is_bad, parents, "an extension has a parent")
     has_parent = parents != NULL
     is_bad = has_parent & (parents >= np.arange(len(parents)))
