@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -120,7 +121,7 @@ class Tissue:
     def _sampled(corners: Points) -> Points:
         """Give points along a line, a quarter of D apart at most."""
         pieces = [corners[:1]]
-        for start, end in zip(corners[:-1], corners[1:], strict=True):
+        for start, end in pairwise(corners):
             n_pieces = max(1, int(np.ceil(4.0 * np.hypot(*(end - start)))))
             share = np.arange(1, n_pieces + 1)[:, None] / n_pieces
             pieces.append(start + share * (end - start))

@@ -119,13 +119,15 @@ def fluxes(walls: Ids, concentration: Floats, forth: Floats, back: Floats) -> Fl
 def arrivals(walls: Ids, flux: Floats, n_cells: int) -> Floats:
     """Give the net inflow of each cell, shape (n,)."""
     inflow = np.bincount(walls[:, 1], weights=flux, minlength=n_cells)
-    return inflow - np.bincount(walls[:, 0], weights=flux, minlength=n_cells)
+    outflow = np.bincount(walls[:, 0], weights=flux, minlength=n_cells)
+    return np.asarray(inflow - outflow, dtype=np.float64)
 
 
 def through(walls: Ids, flux: Floats, n_cells: int) -> Floats:
     """Give what passes each cell: the sum of all that leaves it for neighbors, shape (n,)."""
     leaves = np.where(flux > 0.0, walls[:, 0], walls[:, 1])
-    return np.bincount(leaves, weights=np.abs(flux), minlength=n_cells)
+    sums = np.bincount(leaves, weights=np.abs(flux), minlength=n_cells)
+    return np.asarray(sums, dtype=np.float64)
 
 
 def _diagonal(system: Balance) -> Any:
