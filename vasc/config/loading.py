@@ -204,10 +204,11 @@ def _checked(tables: dict[str, Any], folder: Path, label: str) -> "LeafVenation"
 
 def _geometry_problems(parameters: Any, folder: Path) -> list[str]:
     """Describe a blade that cannot be made, or is of a size that no run can hold."""
+    from vasc.models.on_tissue import TissueExperiment
     from vasc.models.stem import StemVasculature
 
-    if isinstance(parameters, StemVasculature):
-        return []  # its own rules have judged its size
+    if isinstance(parameters, StemVasculature | TissueExperiment):
+        return []  # their own rules have judged their size
     if problems := size_problems(parameters):
         return problems
     if parameters.domain is None:
