@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 
 from vasc.arrays import Ids, Points, Steps, as_points
 from vasc.domain import Tissue
+from vasc.domain.normalization import Pair
 from vasc.domain.tissue_parameters import with_kind
 from vasc.errors import ConfigError
 from vasc.models.injection import DartInjection, GivenInjection, Injection
@@ -47,7 +48,7 @@ class CellSourceParameters(CellSources):
     """Sources in given places, all at once or in rounds."""
 
     kind: Literal["given"] = "given"
-    points: list[tuple[float, float]] | None = quantity(
+    points: list[Pair] | None = quantity(
         "Places of the sources, pairs [x, y]: the nearest cell of each.", unit="D", default=None
     )
     rounds: list[int] | None = quantity(

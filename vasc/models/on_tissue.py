@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 
 from vasc.arrays import Ids
 from vasc.domain import Tissue
+from vasc.domain.normalization import Pair
 from vasc.domain.tissue import sampled
 from vasc.domain.tissue_parameters import TissueParameters
 from vasc.errors import ConfigError
@@ -21,7 +22,7 @@ from vasc.models.base import (
 )
 from vasc.parameters import Parameters, quantity
 
-Line = Annotated[list[tuple[float, float]], Field(min_length=1)]
+Line = Annotated[list[Pair], Field(min_length=1)]
 
 
 class VeinParameters(Parameters):
