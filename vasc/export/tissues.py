@@ -7,10 +7,10 @@ import numpy as np
 
 from vasc import __version__
 from vasc.analysis.ways import ways
-from vasc.arrays import Ids, Points
+from vasc.arrays import Points
 from vasc.domain import Tissue
 from vasc.domain.tissue_parameters import VoronoiCells
-from vasc.errors import OutputError, VascError
+from vasc.errors import VascError
 from vasc.export.files import check_suffix
 from vasc.timeline import Frame, Timeline
 from vasc.timeline.stems import is_stem
@@ -59,6 +59,8 @@ def export_tissue(
     """
     output = Path(output)
     check_suffix(output, (TISSUE_SUFFIX,))
+    if not (np.isfinite(cell) and cell > 0.0):
+        raise VascError(f"cell = {cell:g}: must be a width greater than 0, in D")
     if isinstance(run, Timeline):
         text = tissue_config(run, step, cell)
     else:
@@ -78,7 +80,7 @@ def tissue_config(timeline: Timeline, step: int = -1, cell: float = CELL) -> str
     """
     if is_stem(timeline):
         raise VascError("a tissue can be cut from a leaf only; this is the run of a stem")
-    frame = timeline[step]
+    frame = timeline.frame(step)
     if len(frame.blade.rings) > 1:
         raise VascError(
             f"step {frame.step}: the outline has {len(frame.blade.rings)} rings; a tissue can be"
@@ -102,8 +104,9 @@ def tissue_config(timeline: Timeline, step: int = -1, cell: float = CELL) -> str
         "veins": {"lines": lines},
         "placement": {"kind": "given", "points": sources.tolist()},
         "transport": {"kind": "facilitated", "gain": _gain(tissue)},
+        "settling": {"tolerance": 1.0},
     }
-    return _head(name, frame, cell, len(sources), n_left_out) + _toml(tables)
+    return _head(name, frame, cell, tissue.n_cells, len(sources), n_left_out) + _toml(tables)
 
 
 def vein_lines(frame: Frame, cell: float) -> list[list[list[float]]]:
@@ -113,7 +116,8 @@ def vein_lines(frame: Frame, cell: float) -> list[list[list[float]]]:
     places = frame.positions / cell
     segments = np.unique(np.sort(frame.network.segments, axis=1), axis=0)
     found = [places[way] for way in ways(segments)]
-    lonely = np.setdiff1d(frame.network.nodes, segments)
+    joined = np.concatenate([segments.ravel(), frame.network.retired])
+    lonely = np.setdiff1d(np.arange(len(places)), joined)
     lines = [places[[node]] for node in lonely.tolist()]
     for way in found:
         simple = shapely.LineString(way).simplify(SLACK)
@@ -155,12 +159,14 @@ def _gain(tissue: Tissue) -> float:
     return float(max(3e3, 100.0 * np.ceil(across)))
 
 
-def _head(name: str, frame: Frame, cell: float, n_sources: int, n_left_out: int) -> str:
+def _head(
+    name: str, frame: Frame, cell: float, n_cells: int, n_sources: int, n_left_out: int
+) -> str:
     """Say where the tissue is from."""
     lines = [
         f"# A tissue cut from {name} at step {frame.step} by vasc {__version__}.",
         f"# Cells are {cell:g} D of that run wide; all lengths here are in widths of a cell.",
-        f"# Live sources: {n_sources}.",
+        f"# Cells: {n_cells}; live sources: {n_sources}.",
     ]
     if n_left_out:
         lines.append(f"# Left out: {n_left_out} in a vein, in the cell of another or outside.")
@@ -168,10 +174,7 @@ def _head(name: str, frame: Frame, cell: float, n_sources: int, n_left_out: int)
 
 
 def _toml(tables: dict[str, Any]) -> str:
-    """Write a config; lists of points take one line each."""
+    """Write a config."""
     import tomli_w
 
     return tomli_w.dumps(tables)
-
-
-Lines = list[Ids]
