@@ -1,12 +1,14 @@
 """What a model is, and the tables that the configs of all models may have."""
 
 from abc import ABC, abstractmethod
-from typing import Literal
+from typing import Literal, TypeVar
 
 from vasc import kernels
 from vasc.parameters import Parameters, quantity
 from vasc.state import State, Tables
 from vasc.streams import Streams
+
+B = TypeVar("B")
 
 
 class Model(ABC):
@@ -27,6 +29,29 @@ class Model(ABC):
     def is_finished(self, state: State) -> bool:
         """Tell whether nothing is left to do."""
         return state.is_finished
+
+
+def newest(state: State, kind: type[B]) -> B:
+    """Give the buffers of a state, which must be the newest of its run.
+
+    Parameters
+    ----------
+    state : State
+        The state to go on from.
+    kind : type
+        What the model keeps its buffers in.
+
+    Raises
+    ------
+    ValueError
+        If the state has a successor already, or is of another model.
+    """
+    buffers = state.index
+    if not isinstance(buffers, kind):
+        raise ValueError(f"the state of step {state.step} is of another model")
+    if state.tables.counts() != state.counts:
+        raise ValueError(f"the state of step {state.step} has been advanced already")
+    return buffers
 
 
 class StopParameters(Parameters):
