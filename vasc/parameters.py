@@ -1,6 +1,6 @@
 """Parameters: frozen, typed, bounded values with unit and meaning; unknown keys refused."""
 
-from typing import Any
+from typing import Any, ClassVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -11,6 +11,11 @@ class Parameters(BaseModel):
     A subclass sits beside the code that uses it and holds the only copy of its
     defaults. Values are checked once, when the object is made.
     """
+
+    evidence: ClassVar[str] = ""
+    """How far the equations behind the values were read where they were published, as a mark
+    and a sentence: [V] read there, [C] confirmed by computing, [T] as the vein thesis tells
+    them, [R] recalled, not checked. Empty where the page of the model says it."""
 
     model_config = ConfigDict(
         frozen=True,

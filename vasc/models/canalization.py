@@ -20,7 +20,12 @@ from vasc.fields import Fields, Role
 from vasc.models.base import Model
 from vasc.models.canal_cells import CanalCells
 from vasc.models.injection import GivenInjection, Injection
-from vasc.models.on_tissue import CellSourceParameters, TissueExperiment, in_rounds
+from vasc.models.on_tissue import (
+    CellSourceParameters,
+    TissueExperiment,
+    VeinParameters,
+    in_rounds,
+)
 from vasc.models.settling import Settling
 from vasc.models.transport import AnyTransport, Transport
 from vasc.parameters import quantity
@@ -247,6 +252,7 @@ class CanalizationParameters(TissueExperiment):
     """Canalization by the feedback of flux on transport."""
 
     kind: Literal["canalization"] = "canalization"
+    veins: VeinParameters = quantity("The veins that are there at first.")
     placement: CellSourceParameters = quantity("Where and when sources appear.")
     background: float = quantity(
         "What all ground cells make together, over what one source makes.",
