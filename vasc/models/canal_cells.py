@@ -50,12 +50,22 @@ class CanalCells:
         return self.nodes >= 0
 
     def add_veins(self, lines: list[Ids]) -> None:
-        """Begin with veins along lines of neighboring cells; lines that cross are one vein."""
+        """Begin with veins along lines of neighboring cells; lines that cross are one vein.
+
+        A line that comes back to its first cell is a closed vein.
+        """
+        joined = np.zeros((0, 2), dtype=np.int32)
         for line in lines:
-            fresh = line[~self.is_vein[line]]
+            _, first = np.unique(line, return_index=True)
+            once = line[np.sort(first)]
+            fresh = once[~self.is_vein[once]]
             self._add_nodes(0, fresh, np.full(len(fresh), NULL), Origin.SEED, NULL)
-            pairs = np.stack([self.nodes[line[:-1]], self.nodes[line[1:]]], axis=1)
-            self._add_segments(0, pairs, SegmentKind.EXTENSION)
+            joined = np.concatenate(
+                [joined, np.stack([self.nodes[line[:-1]], self.nodes[line[1:]]], axis=1)]
+            )
+        # lines that go the same way have their segments once
+        _, first = np.unique(np.sort(joined, axis=1), axis=0, return_index=True)
+        self._add_segments(0, joined[np.sort(first)], SegmentKind.EXTENSION)
 
     def add_sources(self, step: int, cells: Ids, cause: Cause) -> None:
         """Let sources appear in cells."""

@@ -10,7 +10,7 @@ from abc import abstractmethod
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from vasc.arrays import Floats
 from vasc.domain import Tissue
@@ -124,6 +124,16 @@ class PolarTransport(PolarWalls):
     baseline: float = quantity(
         "Carriers without flux, B = beta / (gamma T).", default=0.1, gt=0.0, le=1e6
     )
+
+    @model_validator(mode="after")
+    def _check(self) -> "PolarTransport":
+        """Require room for carriers above those without flux."""
+        if self.most <= self.baseline:
+            key = "gain" if self.saturation is None else "saturation"
+            raise ValueError(
+                f"'{key}' is {self.most:g}; it must be greater than 'baseline', {self.baseline:g}"
+            )
+        return self
 
     @property
     def most(self) -> float:
