@@ -27,6 +27,16 @@ class Parameters(BaseModel):
     )
 
 
+def evidence(parameters: Parameters) -> list[str]:
+    """Give what parameters and those within them say on the evidence of their equations."""
+    found = [parameters.evidence] if parameters.evidence else []
+    for name in type(parameters).model_fields:
+        part = getattr(parameters, name)
+        if isinstance(part, Parameters):
+            found += evidence(part)
+    return found
+
+
 def quantity(meaning: str, *, unit: str = "", default: Any = ..., **bounds: Any) -> Any:
     """Declare a parameter with its meaning, unit and bounds.
 
