@@ -91,8 +91,8 @@ def regime(parameters: "LeafVenation") -> Regime:
         _isogonic(crossing(parameters), found)
     elif growth.kind == "none":
         found.sentences.append("no growth: veins fan out from the petiole toward all sources")
-    placement: Any = parameters.placement
-    if placement.kind == "darts":
+    placement: Any = getattr(parameters, "placement", None)
+    if placement is not None and placement.kind == "darts":
         _darts(placement.density * placement.birth_distance_sources**2, found)
     return found
 

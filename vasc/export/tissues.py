@@ -10,7 +10,7 @@ from vasc.analysis.ways import ways
 from vasc.arrays import Ids, Points
 from vasc.domain import Tissue
 from vasc.domain.tissue_parameters import VoronoiCells
-from vasc.errors import OutputError, VascError
+from vasc.errors import VascError
 from vasc.export.files import check_suffix
 from vasc.timeline import Frame, Timeline
 from vasc.timeline.stems import is_stem
