@@ -11,50 +11,14 @@ from typing import Any
 
 import numpy as np
 
-from vasc.models.transport import (
-    FacilitatedDiffusion,
-    PolarTransport,
-    PooledTransport,
-    Transport,
-)
 from vasc.validation.canalization.geometric import closed_ends, groups_of, ratio_to_second
+from vasc.validation.canalization.protocols import PROTOCOLS, Protocol
 from vasc.validation.canalization.rates import wilson
 from vasc.validation.canalization.scenarios import Scenario, draw
 from vasc.validation.canalization.settled import settle
 
 CLEAR = 0.8
 """Below that ratio of the distances of the nearest and the second vein, no near-tie."""
-
-
-@dataclass(frozen=True)
-class Protocol:
-    """How canals are let form.
-
-    Parameters
-    ----------
-    name : str
-        What tables call it.
-    transport : Transport
-        Transport and its feedback.
-    background : float
-        What all ground cells make together, over what one source makes.
-    """
-
-    name: str
-    transport: Transport
-    background: float = 0.0
-
-
-PROTOCOLS = {
-    one.name: one
-    for one in (
-        Protocol("facilitated", FacilitatedDiffusion()),
-        Protocol("pool, background", PooledTransport(), 0.5),
-        Protocol("pool", PooledTransport()),
-        Protocol("polar, background", PolarTransport(), 0.1),
-    )
-}
-"""Protocols by name."""
 
 
 @dataclass(frozen=True)
