@@ -113,6 +113,8 @@ def summary(found: list[Outcome]) -> dict[str, Any]:
     row |= _rate("hit_by_cells", [one.is_hit_by_cells for one in found])
     row |= _rate("as_closed", [one.is_as_closed for one in found])
     row |= {
+        # how clear the clearest miss was
+        "miss_q_min": min((one.q for one in found if not one.is_hit), default=None),
         "misses": [one.seed for one in found if not one.is_hit],
         "clear_misses": [one.seed for one in clear if not one.is_hit],
         "formed": sum(one.is_formed for one in found),
@@ -127,6 +129,7 @@ def summary(found: list[Outcome]) -> dict[str, Any]:
         values = values[np.isfinite(values)]
         row[f"{name}_median"] = float(np.median(values)) if len(values) else None
         row[f"{name}_p90"] = float(np.quantile(values, 0.9)) if len(values) else None
+        row[f"{name}_max"] = float(values.max()) if len(values) else None
     return row
 
 
