@@ -3,7 +3,19 @@
 from pathlib import Path
 
 import numpy as np
-from scenes import GREEN, GREY, INK, MODELS, draw_cells, options, ring, row_of, settle, strand_of, tissue_in
+from scenes import (
+    GREEN,
+    GREY,
+    INK,
+    MODELS,
+    draw_cells,
+    options,
+    ring,
+    row_of,
+    settle,
+    strand_of,
+    tissue_in,
+)
 
 from vasc.render import save
 
