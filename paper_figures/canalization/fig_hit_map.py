@@ -35,7 +35,7 @@ def main(output: Path, size: int = 2) -> None:
     sinks = tissue.positions[np.concatenate(veins)]
     apart = np.linalg.norm(tissue.positions[:, None] - sinks, axis=2)
     far = np.flatnonzero(apart.min(axis=1) >= CLEARANCE)[::size]
-    figure, axes = row_of(3, (7.0, 2.2), list(MODELS))
+    figure, axes = row_of(3, (7.0, 2.25), list(MODELS))
     for ax, (name, (transport, background)) in zip(axes, MODELS.items(), strict=True):
         colors = np.full(tissue.n_cells, "#f2f2f0", dtype=object)
         n_hits = n_formed = 0
@@ -51,6 +51,9 @@ def main(output: Path, size: int = 2) -> None:
         draw_bisector(ax, sinks)
         ring(ax, sinks, GREEN, 7.0)
         ax.set_title(f"{name}\n{n_hits} of {len(far)} to the nearest", fontsize=8)
+    figure.supxlabel(
+        "colour: sink reached; dark: not the nearest; dashed: equally far from both", fontsize=8
+    )
     save(figure, output)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -60,13 +60,15 @@ def tissue_in(ring: ArrayLike, seed: int = 1) -> Tissue:
 
 
 def margin_of(tissue: Tissue) -> NDArray[np.int32]:
-    """Give the cells of the margin: those with a corner on the outline."""
+    """Give the cells of the margin of a round tissue, those with a corner on it, around it."""
     import shapely
 
     line = tissue.blade.polygon.boundary
     is_on = shapely.distance(shapely.points(tissue.corners), line) < 1e-6
     owners = np.repeat(np.arange(tissue.n_cells), np.diff(tissue.starts))
-    return np.unique(owners[is_on]).astype(np.int32)
+    cells = np.unique(owners[is_on]).astype(np.int32)
+    x, y = (tissue.positions[cells] - tissue.positions[cells].mean(axis=0)).T
+    return cells[np.argsort(np.arctan2(y, x))]
 
 
 def settle(
@@ -134,12 +136,10 @@ def show_all(ax: Axes, tissue: Tissue) -> None:
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
 
 
-def draw_lines(ax: Axes, lines: ArrayLike, widths: ArrayLike, color: str = INK) -> None:
+def draw_lines(ax: Axes, lines: Iterable[NDArray], widths: ArrayLike, color: str = INK) -> None:
     """Draw lines of given widths, with round ends."""
     ax.add_collection(
-        LineCollection(
-            list(np.asarray(lines)), colors=color, linewidths=widths, capstyle="round", zorder=3
-        )
+        LineCollection(list(lines), colors=color, linewidths=widths, capstyle="round", zorder=3)
     )
 
 
@@ -153,3 +153,15 @@ def ring(ax: Axes, places: ArrayLike, color: str, size: float = 6.0) -> None:
     """Draw rings around places."""
     x, y = np.atleast_2d(np.asarray(places)).T
     ax.plot(x, y, "o", mfc="none", mec=color, mew=1.5, ms=size, zorder=6)
+
+
+def plot(size: tuple[float, float], x: str, y: str) -> tuple[Figure, Axes]:
+    """Make a figure of one diagram."""
+    figure = Figure(figsize=size, facecolor="white", layout="constrained")
+    FigureCanvasAgg(figure)
+    ax = figure.add_subplot()
+    ax.set_xlabel(x, fontsize=9)
+    ax.set_ylabel(y, fontsize=9)
+    ax.tick_params(labelsize=8)
+    ax.spines[["top", "right"]].set_visible(False)
+    return figure, ax
