@@ -21,7 +21,7 @@ from vasc.models.base import Model
 from vasc.models.canal_cells import CanalCells
 from vasc.models.cell_sources import AnyCellSources
 from vasc.models.injection import Injection
-from vasc.models.on_tissue import TissueExperiment
+from vasc.models.on_tissue import TissueExperiment, VeinParameters
 from vasc.models.settling import Settling
 from vasc.models.transport import AnyTransport, Transport
 from vasc.parameters import quantity
@@ -248,6 +248,7 @@ class CanalizationParameters(TissueExperiment):
     """Canalization by the feedback of flux on transport."""
 
     kind: Literal["canalization"] = "canalization"
+    veins: VeinParameters = quantity("The veins that are there at first.")
     placement: AnyCellSources = quantity("Where and when sources appear.")
     background: float = quantity(
         "What all ground cells make together, over what one source makes.",

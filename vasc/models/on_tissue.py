@@ -75,7 +75,6 @@ class TissueExperiment(Parameters):
     reference: str = quantity("The figure or paper it follows.", default="")
     seed: int = quantity("Seed of all randomness.", default=1, ge=0, lt=2**63)
     domain: TissueParameters = quantity("The tissue.")
-    veins: VeinParameters = quantity("The veins that are there at first.")
     stop: StopParameters = quantity("When the run ends.", default=StopParameters())
     record: RecordParameters = quantity("What is recorded.", default=RecordParameters())
     units: UnitParameters | None = quantity("Real units.", default=None)

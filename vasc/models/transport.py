@@ -7,7 +7,7 @@ transport); a flux in what one source makes, K.
 """
 
 from abc import abstractmethod
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -50,6 +50,11 @@ class FacilitatedDiffusion(Transport):
     difference of concentrations; D relaxes to l + A flux^2, at most the saturation. A
     saturated wall resists in proportion to d, so that paths compete by their length.
     """
+
+    evidence: ClassVar[str] = (
+        "[R] the equation is recalled from Mitchison (1980), not checked there; [C] with it canals"
+        " form as in Figure 4.9 of Runions (2008)"
+    )
 
     kind: Literal["facilitated"] = "facilitated"
     gain: float = quantity("Feedback gain A = alpha K^2 / beta.", default=3e3, gt=0.0, le=1e12)
@@ -115,6 +120,12 @@ class PolarTransport(PolarWalls):
     closed loops may grow without bound.
     """
 
+    evidence: ClassVar[str] = (
+        "[R] the squared flux is recalled from Mitchison (1981), not checked there; [V] production"
+        " of carriers by flux, their decay and their limit were read in Abley et al. (2016),"
+        " equations 8 to 12, where the flux is not squared"
+    )
+
     kind: Literal["polar"] = "polar"
     gain: float = quantity("Feedback gain A = alpha K^2 / (gamma T).", default=1e3, gt=0, le=1e12)
     saturation: float | Literal["none"] | None = quantity(
@@ -163,6 +174,10 @@ class PooledTransport(PolarWalls):
     P_ij relaxes to pool w_ij / (1 + sum_j l_ij w_ij), so that the sum over the walls of a
     cell never exceeds the pool.
     """
+
+    evidence: ClassVar[str] = (
+        "[R] the conserved pool is recalled from Feugier et al. (2005), not checked there"
+    )
 
     kind: Literal["pool"] = "pool"
     gain: float = quantity("Feedback gain A = alpha K^2 / (gamma T).", default=30.0, gt=0, le=1e12)
