@@ -88,7 +88,7 @@ APART = """blade = { points = [[0, 0], [10, 0], [10, 4.4], [20, 4.4], [20, 0], [
             {"veins": "lines = [[[1.0, 1.0]], [[10.0, 10.0], [10.0, 20.0]]]"},
             ["veins.lines[1]", "outside the tissue at (10, 11.25)", "(20.5, 10.5)"],
         ),
-        ({"domain": LONG}, ["domain.blade.length = 3000", "at most 200,000"]),
+        ({"domain": LONG}, ["domain.blade.length = 3000", "at most 250,000"]),
         (
             {"domain": 'blade = { shape = "ovate", length = 0.5 }'},
             ["domain.blade", "has room for 1 cells", "at least 2"],

@@ -50,9 +50,9 @@ WRONG_TISSUES = {
     "too many cells": (
         tissue_config(domain="columns = 20000\nrows = 11"),
         "columns = 20000 and rows = 11",
-        "between 2 and 200,000",
+        "between 2 and 250,000",
     ),
-    "one cell": (tissue_config(domain="columns = 1\nrows = 1"), "between 2 and 200,000"),
+    "one cell": (tissue_config(domain="columns = 1\nrows = 1"), "between 2 and 250,000"),
     "no column": (
         tissue_config(domain="columns = 0\nrows = 11"),
         "domain.columns = 0",

@@ -57,12 +57,11 @@ def test_the_rate_of_change_of_carriers_is_the_same_in_both(values, flux):
 
 @pytest.mark.parametrize("wrong", [0.0, -1.0, np.nan])
 def test_rates_are_above_zero(wrong):
-    with pytest.raises(ValueError, match="gamma = .*greater than 0"):
+    with pytest.raises(ValueError, match=r"gamma = .*greater than 0"):
         facilitated_numbers(FacilitatedRates(1.0, 1.0, wrong, 1.0, 1.0))
-    with pytest.raises(ValueError, match="passive = .*greater than 0"):
-        polar_rates(
-            polar_numbers(PolarRates(1.0, 1.0, 1.0, 1.0, 1.0, 1.0)),
-            gamma=1.0,
-            source=1.0,
-            passive=wrong,
-        )
+    rates = PolarRates(1.0, 1.0, 1.0, 1.0, wrong, 1.0)
+    with pytest.raises(ValueError, match=r"passive = .*greater than 0"):
+        polar_numbers(rates)
+    numbers = polar_numbers(rates._replace(passive=1.0))
+    with pytest.raises(ValueError, match=r"must be greater than 0"):
+        polar_rates(numbers, gamma=1.0, source=1.0, passive=wrong)

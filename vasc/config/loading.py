@@ -11,7 +11,6 @@ from vasc.config.bundled import find_config
 from vasc.config.limits import blade_problems, size_problems
 from vasc.config.overrides import Override, overridden
 from vasc.config.reading import parse, read_text, refuse_deep
-from vasc.config.tissue_limits import tissue_problems
 from vasc.config.values import assignment
 from vasc.errors import ConfigError, OutlineError, TimelineError, VascError
 
@@ -209,8 +208,12 @@ def _geometry_problems(parameters: Any, folder: Path) -> list[str]:
     from vasc.models import LeafVenation
     from vasc.models.on_tissue import TissueExperiment
 
-    if isinstance(parameters, TissueExperiment):
-        return tissue_problems(parameters, folder)
+    try:
+        if isinstance(parameters, TissueExperiment):
+            parameters.domain.outline(folder)
+            return []
+    except OutlineError as error:
+        return [str(error)]
     if not isinstance(parameters, LeafVenation):
         return []  # its own rules have judged its size
     if problems := size_problems(parameters):

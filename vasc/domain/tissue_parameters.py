@@ -16,8 +16,8 @@ from vasc.errors import OutlineError
 from vasc.parameters import Parameters, quantity
 from vasc.streams import Streams
 
-MOST_CELLS = 200_000
-"""Cells that a tissue may have: the concentrations of more take too long to solve for."""
+MOST_CELLS = 250_000
+"""Cells of a tissue: each takes about 5 kB of memory, and up to 60 bytes a step on the disk."""
 STREAM = "tissue"
 """The random numbers that a tissue is drawn from, which its seed alone decides."""
 
@@ -64,21 +64,39 @@ class CellsParameters(Parameters):
             message names key and place.
         """
 
+    def outline(self, folder: Path = Path()) -> Blade | None:
+        """Give the blade that cells are in; None for a box.
+
+        Raises
+        ------
+        OutlineError
+            If it cannot be used, or holds too many cells; the message names key and place.
+        """
+        if self.blade is None:
+            return None
+        try:
+            blade = self.blade.blade(folder)
+        except OutlineError as error:
+            raise OutlineError(_located(str(error))) from error
+        # cells are about 1 in area
+        if blade.area > MOST_CELLS:
+            raise OutlineError(
+                f"domain.blade.length = {self.blade.length:g}: the tissue would have"
+                f" {blade.area:.3g} cells, more than memory and disk can hold; at most"
+                f" {MOST_CELLS:,} are allowed"
+            )
+        return blade
+
     def _made(
         self, box: Callable[[int, int], Tissue], inside: Callable[[Blade], Tissue], folder: Path
     ) -> Tissue:
         """Make a tissue in one of the two ways."""
-        if self.blade is None:
+        blade = self.outline(folder)
+        if blade is None:
             assert self.columns is not None, "checked"
             assert self.rows is not None, "checked"
             return box(self.columns, self.rows)
         try:
-            blade = self.blade.blade(folder)
-            if blade.area > MOST_CELLS:
-                raise OutlineError(
-                    f"domain.length = {self.blade.length:g}: the tissue would have"
-                    f" {blade.area:,.0f} cells; at most {MOST_CELLS:,} are allowed"
-                )
             return inside(blade)
         except OutlineError as error:
             raise OutlineError(_located(str(error))) from error
