@@ -7,6 +7,7 @@ from vasc.analysis.topology import count_components, count_cycles, free_ends
 from vasc.config import load, parse_override
 from vasc.config.bundled import bundled_configs
 from vasc.experiment import run
+from vasc.models.on_tissue import TissueExperiment
 from vasc.network import Origin
 from vasc.simulation import simulate
 from vasc.streams import Streams
@@ -18,7 +19,8 @@ from vasc.validation.stem_references import STEM_PATTERNS
 
 NAMES = [config.name for config in bundled_configs()]
 STEMS = [name for name in NAMES if load(name).kind == "stem"]
-TISSUES = [name for name in NAMES if load(name).kind == "canalization"]
+TISSUES = [name for name in NAMES if isinstance(load(name).parameters, TissueExperiment)]
+CANALS = [name for name in TISSUES if load(name).kind == "canalization"]
 LEAVES = [name for name in NAMES if name not in {*STEMS, *TISSUES}]
 FLAX = "stem-lucas-7-11"
 """The largest stem."""
@@ -88,7 +90,7 @@ def test_the_whole_stem_ends_as_it_should(name, tmp_path):
     assert report.passed
 
 
-@pytest.mark.parametrize("name", TISSUES)
+@pytest.mark.parametrize("name", CANALS)
 def test_canals_of_all_sources_become_veins(name, tmp_path):
     path = tmp_path / "run.h5"
     summary = run(load(name), path)

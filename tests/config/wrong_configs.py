@@ -48,8 +48,8 @@ WRONG_TISSUES = {
         "'columns' and 'rows' and 'blade' given",
     ),
     "too many cells": (
-        tissue_config(domain="columns = 20000\nrows = 11"),
-        "columns = 20000 and rows = 11",
+        tissue_config(domain="columns = 20000\nrows = 20"),
+        "columns = 20000 and rows = 20",
         "between 2 and 250,000",
     ),
     "one cell": (tissue_config(domain="columns = 1\nrows = 1"), "between 2 and 250,000"),
