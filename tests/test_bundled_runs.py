@@ -7,7 +7,7 @@ from vasc.analysis.topology import count_components, count_cycles, free_ends
 from vasc.config import load, parse_override
 from vasc.config.bundled import bundled_configs
 from vasc.experiment import run
-from vasc.models.on_tissue import TissueExperiment
+from vasc.models import LeafVenation
 from vasc.network import Origin
 from vasc.simulation import simulate
 from vasc.streams import Streams
@@ -19,9 +19,8 @@ from vasc.validation.stem_references import STEM_PATTERNS
 
 NAMES = [config.name for config in bundled_configs()]
 STEMS = [name for name in NAMES if load(name).kind == "stem"]
-TISSUES = [name for name in NAMES if isinstance(load(name).parameters, TissueExperiment)]
-CANALS = [name for name in TISSUES if load(name).kind == "canalization"]
-LEAVES = [name for name in NAMES if name not in {*STEMS, *TISSUES}]
+CANALS = [name for name in NAMES if load(name).kind == "canalization"]
+LEAVES = [name for name in NAMES if isinstance(load(name).parameters, LeafVenation)]
 FLAX = "stem-lucas-7-11"
 """The largest stem."""
 FREE = {f"param-kill-distance-{letter}" for letter in "abc"}

@@ -85,7 +85,7 @@ def hexagonal(columns: int, rows: int) -> Tissue:
 
 
 def rectangular_in(blade: Blade) -> Tissue:
-    """Give the square cells whose centres lie in a blade; one is at its attachment.
+    """Give the square cells whose centres lie in a blade; one of the rows is at its attachment.
 
     Raises
     ------
@@ -97,7 +97,7 @@ def rectangular_in(blade: Blade) -> Tissue:
 
 
 def hexagonal_in(blade: Blade) -> Tissue:
-    """Give the hexagonal cells whose centres lie in a blade; one is at its attachment.
+    """Give the hexagonal cells whose centres lie in a blade; one of the rows is at its attachment.
 
     Raises
     ------
