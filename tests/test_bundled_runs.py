@@ -109,8 +109,8 @@ def test_of_two_veins_the_nearer_one_is_reached_on_any_cells(side, kind):
     overrides = [parse_override(f"domain.kind={kind[0]}")]
     overrides += [parse_override(f"domain.{one}") for one in kind[1:]]
     parameters = load(f"mitchison-two-sinks-{side}", overrides).parameters
-    for state in simulate(parameters.model(), Streams(parameters.seed, parameters.stream_names)):
-        pass
+    streams = Streams(parameters.seed, parameters.stream_names)
+    *_, state = simulate(parameters.model(), streams)
     # the first new node extends the vein that the canal leads to
     assert state.rows("nodes", "parent")[2] == (1 if side == "right" else 0)
 
