@@ -144,7 +144,7 @@ def run(
     Raises
     ------
     OutputError
-        If the file cannot be written.
+        If the file cannot be written, or the disk has no room for a tissue.
     ConfigError
         If the blade or a file the config refers to cannot be used.
     RunError
