@@ -60,11 +60,11 @@ def test_a_run_says_what_it_runs_and_what_came_of_it(canals, capsys):
     found = dict(line.split("  ", 1) for line in lines[6:])
     with Timeline("canals.h5") as timeline:
         assert int(found["steps"]) == timeline.last_step
-        assert found["time"].split()[0] == f"{timeline.frame().time:.6g}"
+        assert found["time"].strip() == f"{timeline.frame().time:.6g}"
     assert found["cells"].strip() == "117, with 212 walls between them"
     assert found["sources"].strip() == "3 placed, 3 connected to a vein"
     assert found["rounds unsettled"].strip() == found["vortices"].strip() == "0"
-    assert "the walls are at rest" in found["ended"]
+    assert "the tissue is at rest" in found["ended"]
     # what only leaves have
     assert not {"joins", "stalls resolved", "nodes outside the blade"} & set(found)
 
@@ -135,7 +135,7 @@ def test_verify_names_the_step_the_field_and_the_row(canals, recorded, capsys):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["show"], ["Three canals", "canalization", "source_removed", "walls are at rest"]),
+        (["show"], ["Three canals", "canalization", "source_removed", "tissue is at rest"]),
         (["show", "--check"], ["keeps to its specification"]),
         (["events", "--kind", "canals_settled"], ["canals_settled  -1       -1"]),
         (["lineage", "--source", "0"], ["removed", "nearest_node"]),
