@@ -103,6 +103,25 @@ def test_a_file_without_a_tissue_has_none(tmp_path):
             timeline.fields()
 
 
+def test_cells_and_walls_are_data_frames(recorded, tmp_path):
+    path, shown = recorded
+    tissue, fields = TissueRun.tissue, shown[17].fields
+    with Timeline(path) as timeline:
+        cells, walls = (timeline.to_pandas(name, 17) for name in ("cells", "walls"))
+        assert np.array_equal(timeline.to_pandas("walls")["flux"], shown[-1].fields.flux)
+    assert np.array_equal(cells[["position_x", "position_y"]], tissue.positions)
+    assert np.array_equal(cells["concentration"], fields.concentration)
+    assert cells["role"].value_counts().to_dict() == {"ground": 32, "vein": 2, "source": 1}
+    assert np.array_equal(walls[["first", "second"]], tissue.walls)
+    assert np.array_equal(walls[["carriers_forth", "carriers_back"]], fields.carriers)
+    synthetic.record(tmp_path / "leaf.h5", 3)
+    with (
+        Timeline(tmp_path / "leaf.h5") as timeline,
+        pytest.raises(TimelineError, match="has no tissue"),
+    ):
+        timeline.to_pandas("cells")
+
+
 def test_a_step_that_is_not_recorded_has_no_fields(recorded):
     with Timeline(recorded[0]) as timeline, pytest.raises(TimelineError, match="step 151 is not"):
         timeline.fields(LAST + 1)
