@@ -18,7 +18,7 @@ REASONS = {
     "nothing_pulled": "growth and placement are over, the sources left pull no vein",
     "livelock": "livelock: veins grow without coming nearer to any source",
     "step_limit": "the last step of the config was reached",
-    "at_rest": "all sources have appeared, and the walls are at rest",
+    "at_rest": "no source is to come, and the tissue is at rest",
 }
 
 
@@ -46,7 +46,7 @@ def _cells(summary: "Summary") -> dict[str, Any]:
     if summary.tissue is None:
         return {}
     cells = f"{summary.tissue.cells:,}, with {summary.tissue.walls:,} walls between them"
-    return {"time": f"{summary.time:.6g} turnover times", "cells": cells}
+    return {"time": summary.time, "cells": cells}
 
 
 def _sources(summary: "Summary") -> dict[str, Any]:
@@ -84,6 +84,8 @@ def reason_text(summary: "Summary") -> str:
         return f"not finished; `vasc resume {summary.output}` goes on"
     if summary.nodes_outside is None and summary.stop_reason == "no_sources":
         return "all primordia have appeared and are connected"
+    if summary.tissue is not None and summary.tissue.unsettled and summary.stop_reason == "at_rest":
+        return "no source is to come, and the tissue is at rest or had its time to settle"
     return REASONS.get(summary.stop_reason, summary.stop_reason)
 
 

@@ -356,8 +356,10 @@ class Timeline:
         past = RecordedPast(self.opened) if self.opened.found.has_tissue else None
         return Tables(self.dimensions, filled, past)
 
-    def to_pandas(self, name: str) -> Any:
+    def to_pandas(self, name: str, step: int = -1) -> Any:
         """Give a table, or ``frames``, as a ``pandas.DataFrame``; its index is the id.
+
+        Of a tissue also ``cells`` and ``walls``, with their fields at a step.
 
         Codes become names, points one column an axis (``position_x``,
         ``position_y``, in space ``position_z``), null stays -1.
@@ -369,7 +371,7 @@ class Timeline:
         VascError
             If pandas is not installed.
         """
-        return data_frame(self, name)
+        return data_frame(self, name, step)
 
     @property
     def n_places(self) -> dict[str, int]:
