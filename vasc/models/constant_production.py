@@ -6,6 +6,9 @@ near the centre of the largest empty circle. Where its difference across a wall 
 and vein exceeds a threshold, the ground cell becomes vein, which steepens the gradient at the
 tip: strands climb toward the maximum, and end there or meet another strand.
 
+The rule by which ground becomes vein is recalled, not checked in the paper; that one cell a step
+does, the steepest first, is a reading of ours.
+
 Concentrations are in K D^2 / D_c, with D the width of a cell, D_c the diffusion constant and
 K the production of an area, so that the peak between two veins at a distance of 2 L is L^2 / 2.
 """
