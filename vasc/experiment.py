@@ -11,7 +11,7 @@ import numpy as np
 
 from vasc.config import Experiment, experiment_from_record
 from vasc.domain import Blade
-from vasc.errors import TimelineError
+from vasc.errors import RunError, TimelineError
 from vasc.events import EventKind, StopReason
 from vasc.models.base import Model
 from vasc.network import Origin
@@ -144,9 +144,11 @@ def run(
     Raises
     ------
     OutputError
-        If the file cannot be written.
+        If the file cannot be written, or the disk has no room for a tissue.
     ConfigError
         If the blade or a file the config refers to cannot be used.
+    RunError
+        If the run cannot go on; the file holds the steps so far.
     """
     started = time.perf_counter()
     parameters = experiment.parameters
@@ -210,6 +212,8 @@ def resume(
         If the file is no sound timeline or is being written by another run.
     ConfigError
         If this version cannot read its config.
+    RunError
+        If the run cannot go on; the file holds the steps so far.
     """
     started = time.perf_counter()
     with Timeline(path) as timeline, repeatable(timeline) as (model, streams):
@@ -299,14 +303,19 @@ def _recorded(
     started: float,
     should_stop: Callable[[], bool],
 ) -> Summary:
-    """Let a run go to its end, or until it is told to stop."""
+    """Let a run go to its end, until it is told to stop, or until it cannot go on."""
     prepared = time.perf_counter()
     recorder.phases["prepare"] = prepared - started
     is_interrupted = False
-    for state in states:
-        if should_stop() and not state.is_finished:
-            is_interrupted = True
-            break
+    try:
+        for state in states:
+            if should_stop() and not state.is_finished:
+                is_interrupted = True
+                break
+    except RunError as error:
+        recorder.close(complete=False, outcome=f"failed: RunError: {error}"[:400])
+        kept = f"all steps up to {recorder.n_frames - 1} are kept"
+        raise RunError(f"{recorder.path}: {error}; {kept}") from error
     recorder.phases["simulate_and_record"] = time.perf_counter() - prepared
     recorder.close(outcome="interrupted" if is_interrupted else None)
     return _summary(recorder.path, state, started, _stop_reason(state), is_interrupted)

@@ -65,11 +65,19 @@ def described(timeline: "Timeline") -> dict[str, Any]:
         "segments": timeline.n_rows("segments") - refined,
         "sources_placed": placed,
         "sources_active": placed - counts.get("source_removed", 0),
+        **_size_of_tissue(timeline),
         "events": counts,
         "wall_seconds": sum(float(seconds.get("total", 0.0)) for seconds in sessions),
         "config": config,
         "evidence": _evidence(config),
     }
+
+
+def _size_of_tissue(timeline: "Timeline") -> dict[str, int]:
+    """Give the number of cells and walls; nothing in a run without cells."""
+    if timeline.tissue is None:
+        return {}
+    return {"cells": timeline.tissue.n_cells, "walls": timeline.tissue.n_walls}
 
 
 def _print(timeline: "Timeline", path: Path) -> None:

@@ -11,7 +11,6 @@ from vasc.config.bundled import find_config
 from vasc.config.limits import blade_problems, size_problems
 from vasc.config.overrides import Override, overridden
 from vasc.config.reading import parse, read_text, refuse_deep
-from vasc.config.tissue_limits import tissue_problems
 from vasc.config.values import assignment
 from vasc.errors import ConfigError, OutlineError, TimelineError, VascError
 
@@ -207,10 +206,7 @@ def _checked(tables: dict[str, Any], folder: Path, label: str) -> "LeafVenation"
 def _geometry_problems(parameters: Any, folder: Path) -> list[str]:
     """Describe a blade that cannot be made, or is of a size that no run can hold."""
     from vasc.models import LeafVenation
-    from vasc.models.on_tissue import TissueExperiment
 
-    if isinstance(parameters, TissueExperiment):
-        return tissue_problems(parameters, folder)
     if not isinstance(parameters, LeafVenation):
         return []  # its own rules have judged its size
     if problems := size_problems(parameters):

@@ -14,7 +14,7 @@ from vasc.errors import TimelineError
 from vasc.timeline import layout
 from vasc.timeline.layout import Motion
 from vasc.timeline.storage import Store, beside, check_output, publish
-from vasc.timeline.tissues import arrays_of
+from vasc.timeline.tissues import arrays_of, check_room
 
 RECORD_BYTES = 8192
 """Least room for one provenance record."""
@@ -67,7 +67,8 @@ def create_file(
     Raises
     ------
     OutputError
-        If the file exists and ``force`` is not set, or cannot be made.
+        If the file exists and ``force`` is not set, or cannot be made, or the disk has no
+        room for a tissue.
     TimelineError
         If blade, ring, motion, dimensions and tissue do not go together.
     """
@@ -78,6 +79,8 @@ def create_file(
     arrays = _domain(path, blade, base_ring, dimensions)
     arrays |= {} if tissue is None else arrays_of(tissue)
     check_output(path, force=force)
+    if tissue is not None:
+        check_room(path, tissue)
     unready = beside(path)
     try:
         store = Store.create(unready)

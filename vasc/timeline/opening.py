@@ -137,20 +137,11 @@ def find(path: Path, file: h5py.File) -> Found:
     for name, column in columns.items():
         datasets[name] = guard.open_dataset(path, file, name)
         guard.check_column(path, name, datasets[name], column)
-    counts = [0] * len(TABLES)
-    if n_frames:
-        check_length(path, datasets, "frames/step", n_frames)
-        for k, table in enumerate(TABLES):
-            name = f"frames/{count_column(table)}"
-            check_length(path, datasets, name, n_frames)
-            counts[k] = int(datasets[name][n_frames - 1])
-            if counts[k] < 0:
-                raise TimelineError(f"{path}: {name} is {counts[k]} in its last row")
     found = Found(
         version=version,
         n_frames=n_frames,
         is_complete=is_complete,
-        counts=tuple(counts),
+        counts=_counts(path, datasets, n_frames),
         n_streams=n_streams,
         seed=_header(path, file, "seed", int),
         records_perceived=bool(_header(path, file, "records_perceived", int)),
@@ -303,6 +294,21 @@ def _n_rows(path: Path, file: h5py.File, name: str) -> int:
     dataset = guard.open_dataset(path, file, name)
     guard.check_column(path, name, dataset, layout.STATIC[name])
     return int(dataset.shape[0])
+
+
+def _counts(path: Path, datasets: dict[str, h5py.Dataset], n_frames: int) -> tuple[int, ...]:
+    """Give the committed rows of every table."""
+    if not n_frames:
+        return (0,) * len(TABLES)
+    check_length(path, datasets, "frames/step", n_frames)
+    counts = []
+    for table in TABLES:
+        name = f"frames/{count_column(table)}"
+        check_length(path, datasets, name, n_frames)
+        counts.append(int(datasets[name][n_frames - 1]))
+        if counts[-1] < 0:
+            raise TimelineError(f"{path}: {name} is {counts[-1]} in its last row")
+    return tuple(counts)
 
 
 def _n_streams(path: Path, file: h5py.File) -> int:

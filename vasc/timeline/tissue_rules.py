@@ -3,6 +3,8 @@
 Fields are read step by step, as all of a run may not fit in memory.
 """
 
+from math import prod
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -54,7 +56,7 @@ def _of_step(cells: Tissue, fields: Fields, step: int) -> Findings:
             is_bad = ~np.isin(values, list(Role))
             yield from bad_rows("fields", place, is_bad, values, "a role that is not named")
         else:
-            is_bad = ~np.isfinite(values).reshape(len(values), -1).all(axis=1)
+            is_bad = ~np.isfinite(values.reshape(len(values), prod(values.shape[1:]))).all(axis=1)
             yield from bad_rows("written", place, is_bad, values, "must be finite")
     is_vein = (fields.roles == Role.VEIN)[cells.walls]
     place = f"{FIELDS}/flux at step {step}"

@@ -1,12 +1,14 @@
 """Tissues in a timeline: cells and walls written once, fields step by step."""
 
+import shutil
 from math import prod
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vasc.domain import Blade, Tissue
-from vasc.errors import TimelineError
+from vasc.errors import OutputError, TimelineError
 from vasc.fields import FIELD_COLUMNS, Fields
 from vasc.timeline.access import OpenFile
 from vasc.timeline.layout import FIELDS, TISSUE, rows_a_step
@@ -21,6 +23,10 @@ ARRAYS = {
     "starts": "starts",
 }
 """Names in the group ``tissue``, and those of the attributes of a tissue."""
+
+
+LEAST_STEPS = 100
+"""Steps that the disk must have room for: a round of sources takes about as many."""
 
 
 class RecordedPast:
@@ -55,6 +61,25 @@ def n_bytes_a_step(n_cells: int, n_walls: int) -> int:
         rows_a_step(name, n_cells, n_walls) * np.dtype(column.dtype).itemsize * prod(column.shape)
         for name, column in FIELD_COLUMNS.items()
     )
+
+
+def check_room(path: Path, tissue: Tissue) -> None:
+    """Refuse to record a tissue of which the disk cannot hold a short run.
+
+    Raises
+    ------
+    OutputError
+        If fewer than ``LEAST_STEPS`` steps fit.
+    """
+    n_cells, n_walls = tissue.n_cells, tissue.n_walls
+    n_bytes = n_bytes_a_step(n_cells, n_walls)
+    free = shutil.disk_usage(path.absolute().parent)[2]
+    if free < LEAST_STEPS * n_bytes:
+        raise OutputError(
+            f"{path}: the disk has no room for it: each step of domain, {n_cells:,} cells and"
+            f" {n_walls:,} walls, takes up to {n_bytes:,} bytes, and {free:,} are free; at least"
+            f" {LEAST_STEPS} steps must fit"
+        )
 
 
 def read_tissue(opened: OpenFile, blade: Blade) -> Tissue:
