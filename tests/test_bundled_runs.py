@@ -6,8 +6,7 @@ import pytest
 from vasc.analysis.topology import count_components, count_cycles, free_ends
 from vasc.config import load, parse_override
 from vasc.config.bundled import bundled_configs
-from vasc.experiment import run
-from vasc.models import LeafVenation
+from vasc.experiment import run, verify
 from vasc.network import Origin
 from vasc.simulation import simulate
 from vasc.streams import Streams
@@ -20,7 +19,9 @@ from vasc.validation.stem_references import STEM_PATTERNS
 NAMES = [config.name for config in bundled_configs()]
 STEMS = [name for name in NAMES if load(name).kind == "stem"]
 CANALS = [name for name in NAMES if load(name).kind == "canalization"]
-LEAVES = [name for name in NAMES if isinstance(load(name).parameters, LeafVenation)]
+LEAVES = [name for name in NAMES if load(name).kind in ("open", "closed", "areole")]
+OTHERS = [name for name in NAMES if name not in STEMS + LEAVES]
+"""Tissues of cells, and a leaf without any growth of veins."""
 FLAX = "stem-lucas-7-11"
 """The largest stem."""
 FREE = {f"param-kill-distance-{letter}" for letter in "abc"}
@@ -140,3 +141,15 @@ def test_the_whole_run_ends_as_it_should(name, tmp_path):
     else:
         assert n_components <= n_seeds
         assert n_cycles == 0 if name in WITHOUT_LOOPS else n_cycles > 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", OTHERS)
+def test_the_whole_run_of_another_model_ends_and_repeats(name, tmp_path):
+    path = tmp_path / "run.h5"
+    experiment = load(name)
+    summary = run(experiment, path)
+    assert summary.stop_reason == ("no_sources" if experiment.kind == "gottlieb" else "at_rest")
+    assert summary.sources_left == 0
+    assert validate(path) == []
+    assert verify(path) == []

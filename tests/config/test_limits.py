@@ -120,7 +120,7 @@ def test_every_bundled_config_could_be_half_as_long_again():
             load(one.name, [parse_override(change) for change in larger])
             continue
         if "growth" not in tables:
-            continue  # a tissue has as many cells as it says
+            continue  # cells have a size of their own
         growth = tables["growth"]
         if growth["kind"] in ("keyframed", "local_to_global"):
             continue  # they tell no final length

@@ -46,7 +46,8 @@ def _cells(summary: "Summary") -> dict[str, Any]:
     if summary.tissue is None:
         return {}
     cells = f"{summary.tissue.cells:,}, with {summary.tissue.walls:,} walls between them"
-    return {"time": summary.time, "cells": cells}
+    # in the unit of the model: turnover times of a wall, seconds, or steps
+    return {"time": f"{summary.time:.6g}", "cells": cells}
 
 
 def _sources(summary: "Summary") -> dict[str, Any]:

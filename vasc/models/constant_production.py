@@ -6,13 +6,16 @@ near the centre of the largest empty circle. Where its difference across a wall 
 and vein exceeds a threshold, the ground cell becomes vein, which steepens the gradient at the
 tip: strands climb toward the maximum, and end there or meet another strand.
 
+The rule by which ground becomes vein is recalled, not checked in the paper; that one cell a step
+does, the steepest first, is a reading of ours.
+
 Concentrations are in K D^2 / D_c, with D the width of a cell, D_c the diffusion constant and
 K the production of an area, so that the peak between two veins at a distance of 2 L is L^2 / 2.
 """
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar, Literal, NamedTuple
+from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -22,7 +25,7 @@ from vasc.domain import Tissue
 from vasc.errors import RunError
 from vasc.events import EventKind, StopReason
 from vasc.fields import Fields, Role
-from vasc.models.base import Model
+from vasc.models.base import Model, newest
 from vasc.models.canal_cells import CanalCells
 from vasc.models.on_tissue import TissueExperiment, VeinParameters
 from vasc.parameters import quantity
@@ -31,14 +34,6 @@ from vasc.streams import Streams
 
 TIE = 1e-9
 """Differences of concentration that differ by a smaller share are equal."""
-
-
-class Strands(NamedTuple):
-    """What the model goes on from."""
-
-    cells: CanalCells
-    counts: tuple[int, ...]
-    """Rows of the tables in the state it belongs to."""
 
 
 @dataclass(frozen=True)
@@ -67,12 +62,8 @@ class ConstantProduction(Model):
 
     def advance(self, state: State, streams: Streams) -> State:
         """Advance one step: the cell at the steepest wall becomes vein, auxin settles anew."""
-        strands, step = state.index, state.step + 1
-        assert isinstance(strands, Strands), "a state of this model"
+        cells, step = newest(state, CanalCells), state.step + 1
         assert state.fields is not None, "a state of this model"
-        cells = strands.cells
-        if cells.tables.counts() != state.counts:
-            raise ValueError(f"the state of step {state.step} has been advanced already")
 
         # differentiate: by the auxin that the state shows
         chosen = self.steepest(cells, state.fields.concentration)
@@ -160,7 +151,7 @@ class ConstantProduction(Model):
         """Give the state that the tables describe now."""
         if reason is not None:
             cells.log(step, EventKind.RUN_FINISHED, int(reason))
-        roles, counts = cells.roles, cells.tables.counts()
+        roles = cells.roles
         concentration, flux = self.settled(roles)
         # walls do not change: their permeability is their length, both ways
         carriers = np.stack([self.tissue.lengths, self.tissue.lengths], axis=1)
@@ -170,10 +161,10 @@ class ConstantProduction(Model):
             blade=self.tissue.blade,
             motion=affine(1.0),
             outline_motion=affine(1.0),
-            counts=counts,
+            counts=cells.tables.counts(),
             live=cells.live,
             tables=cells.tables,
-            index=Strands(cells, counts),
+            index=cells,
             is_finished=reason is not None,
             tissue=self.tissue,
             fields=Fields(concentration, flux, carriers, roles),

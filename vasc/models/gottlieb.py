@@ -28,6 +28,7 @@ from vasc.models.base import (
     RecordParameters,
     StopParameters,
     UnitParameters,
+    newest,
 )
 from vasc.models.refinement import Subdivision
 from vasc.network import Origin, SegmentKind
@@ -70,9 +71,7 @@ class StraightVeins(Model):
 
     def advance(self, state: State, streams: Streams) -> State:
         """Advance one step: grow, place, connect."""
-        veins = state.index
-        if not isinstance(veins, Vasculature) or veins.tables.counts() != state.counts:
-            raise ValueError(f"the state of step {state.step} has been advanced already")
+        veins = newest(state, Vasculature)
         moment = Moment.of(self.growth, state.step + 1)
 
         # grow: the blade doubles, and long segments are halved

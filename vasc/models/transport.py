@@ -49,6 +49,8 @@ class FacilitatedDiffusion(Transport):
     With wall state D, wall length l and distance d of centres: flux D/d times the
     difference of concentrations; D relaxes to l + A flux^2, at most the saturation. A
     saturated wall resists in proportion to d, so that paths compete by their length.
+
+    The equation is recalled from Mitchison (1980), not checked there.
     """
 
     evidence: ClassVar[str] = (
@@ -118,6 +120,8 @@ class PolarTransport(PolarWalls):
 
     P_ij relaxes to B + A max(flux, 0)^2, at most the saturation. Without one, fluxes in
     closed loops may grow without bound.
+
+    The square is recalled from Mitchison (1981), not checked there.
     """
 
     evidence: ClassVar[str] = (
@@ -173,6 +177,8 @@ class PooledTransport(PolarWalls):
     Walls of a cell compete: with weights w_ij = B + A max(flux_ij, 0)^2 and fast cycling
     P_ij relaxes to pool w_ij / (1 + sum_j l_ij w_ij), so that the sum over the walls of a
     cell never exceeds the pool.
+
+    The equation is recalled from Feugier et al. (2005), not checked there.
     """
 
     evidence: ClassVar[str] = (

@@ -10,7 +10,7 @@ distance from each other where polar transport prevails over diffusion.
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, NamedTuple
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from vasc.domain import Tissue
 from vasc.errors import RunError
 from vasc.events import EventKind, StopReason
 from vasc.fields import Fields, Role
-from vasc.models.base import Model
+from vasc.models.base import Model, newest
 from vasc.models.on_tissue import TissueExperiment
 from vasc.parameters import Parameters, quantity
 from vasc.state import State, Tables, affine
@@ -28,6 +28,13 @@ from vasc.streams import Streams
 
 HEXAGON = 10.0 * 3.0**0.5
 """Width of a hexagon whose sides are 10 um, as in Abley et al. (2016), in um."""
+
+
+class Spread(NamedTuple):
+    """What the model goes on from."""
+
+    auxin: Floats
+    """Auxin of every cell, shape (n,)."""
 
 
 class AuxinRates(Parameters):
@@ -117,10 +124,7 @@ class UpTheGradient(Model):
         RunError
             If the steps of time are too long for the flow.
         """
-        assert state.fields is not None, "a state of this model"
-        if state.tables.counts() != state.counts:
-            raise ValueError(f"the state of step {state.step} has been advanced already")
-        before, times = state.fields.concentration, self.times
+        before, times = newest(state, Spread).auxin, self.times
         tissue = self.tissue
         now = kernels.up_the_gradient.advance(
             tissue.walls,
@@ -185,6 +189,7 @@ class UpTheGradient(Model):
             counts=tables.counts(),
             live=np.empty(0, dtype=np.int32),
             tables=tables,
+            index=Spread(fields.concentration),
             is_finished=reason is not None,
             tissue=self.tissue,
             fields=fields,
