@@ -179,9 +179,9 @@ def read_strand(
 
     path, _, is_loop = kernels.trunks.trunk(tissue.walls, fields.flux, source_cell, is_vein)
     end = int(path[-1])
-    touched = _touched_by_canal(tissue, fields, source_cell, is_vein, activation)
-    fed = np.unique(member[touched & (member >= 0)]).tolist()
-    ends = landings(tissue, np.where(touched, inflow, 0.0), thresholds)
+    is_fed = _fed_by_canal(tissue, fields, source_cell, member, activation)
+    fed = np.unique(member[is_fed & (member >= 0)]).tolist()
+    ends = landings(tissue, np.where(is_fed, inflow, 0.0), thresholds)
     passed = kernels.transport.through(tissue.walls, fields.flux, tissue.n_cells)
     ways = tissue.hops(source_cell)
     return _measured(
@@ -232,28 +232,31 @@ def _apart(tissue: Tissue, cell: int, others: Ids) -> Floats:
     return np.asarray(np.sqrt((apart**2).sum(axis=1)), dtype=np.float64)
 
 
-def _touched_by_canal(
-    tissue: Tissue,
-    fields: Fields,
-    source_cell: int,
-    is_vein: NDArray[np.bool_],
-    activation: float,
+def _fed_by_canal(
+    tissue: Tissue, fields: Fields, source_cell: int, member: Ids, activation: float
 ) -> NDArray[np.bool_]:
     """Tell which vein cells activated walls connect with the source, shape (n,).
 
-    Veins end a canal: two canals that meet a vein in one cell are two.
+    Veins end a canal: two canals that meet a vein in one cell are two. The walls between
+    the last cell of a canal and one vein count together, as the vein may lie around it.
     """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
-    active = tissue.walls[fields.carriers.max(axis=1) >= activation]
-    inner = active[~is_vein[active].any(axis=1)]
-    shape = (tissue.n_cells, tissue.n_cells)
-    links = coo_array((np.ones(len(inner), np.int8), (inner[:, 0], inner[:, 1])), shape=shape)
+    n, walls, carriers = tissue.n_cells, tissue.walls, fields.carriers.max(axis=1)
+    is_vein = fields.roles == Role.VEIN
+    inner = walls[(carriers >= activation) & ~is_vein[walls].any(axis=1)]
+    links = coo_array((np.ones(len(inner), np.int8), (inner[:, 0], inner[:, 1])), shape=(n, n))
     labels = connected_components(links, directed=False)[1]
     is_canal = (labels == labels[source_cell]) & ~is_vein
-    touched = np.zeros(tissue.n_cells, dtype=bool)
+
+    fed = np.zeros(n, dtype=bool)
     for here, there in ((0, 1), (1, 0)):
-        touched[active[is_canal[active[:, here]], there]] = True
-    touched &= is_vein
-    return touched
+        last = np.flatnonzero(is_canal[walls[:, here]] & is_vein[walls[:, there]])
+        veins = walls[last, there]
+        # one number for a cell and a vein; cells of no vein that is asked for are vein -1
+        pairs = walls[last, here].astype(np.int64) * (n + 1) + member[veins] + 1
+        _, number = np.unique(pairs, return_inverse=True)
+        together = np.bincount(number, weights=carriers[last])
+        fed[veins[together[number] >= activation]] = True
+    return fed

@@ -97,7 +97,7 @@ def render(
                 timeline, output, only, unroll=unroll, scale_bar=scale_bar, pixels=pixels
             )
         if unroll:
-            raise VascError("only a stem can be unrolled; this is the run of a leaf")
+            raise VascError(f"unroll: only a stem can be unrolled, not a {timeline.model!r} run")
         frames = [timeline.frame(at) for at in steps]
         if not frames:
             raise VascError("steps: expected at least one step, got none")

@@ -6,7 +6,6 @@ vein cells.
 """
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,16 +93,6 @@ def spanning_tree(points: Points) -> tuple[NDArray[np.int32], float]:
     tree = minimum_spanning_tree(squareform(pdist(points))).tocoo()
     edges = np.stack([tree.row, tree.col], axis=1).astype(np.int32)
     return edges, float(tree.data.sum())
-
-
-def colonized(tissue: Tissue, sources: Ids, base: int, seed: int = 1) -> Any:
-    """Give the open venation that given sources make in the outline of a tissue, from its base.
-
-    Returns
-    -------
-    VeinNetwork
-    """
-    raise NotImplementedError
 
 
 def _squares(points: Points, point: Points) -> Floats:

@@ -11,50 +11,14 @@ from typing import Any
 
 import numpy as np
 
-from vasc.models.transport import (
-    FacilitatedDiffusion,
-    PolarTransport,
-    PooledTransport,
-    Transport,
-)
 from vasc.validation.canalization.geometric import closed_ends, groups_of, ratio_to_second
+from vasc.validation.canalization.protocols import PROTOCOLS, Protocol
 from vasc.validation.canalization.rates import wilson
 from vasc.validation.canalization.scenarios import Scenario, draw
 from vasc.validation.canalization.settled import settle
 
 CLEAR = 0.8
 """Below that ratio of the distances of the nearest and the second vein, no near-tie."""
-
-
-@dataclass(frozen=True)
-class Protocol:
-    """How canals are let form.
-
-    Parameters
-    ----------
-    name : str
-        What tables call it.
-    transport : Transport
-        Transport and its feedback.
-    background : float
-        What all ground cells make together, over what one source makes.
-    """
-
-    name: str
-    transport: Transport
-    background: float = 0.0
-
-
-PROTOCOLS = {
-    one.name: one
-    for one in (
-        Protocol("facilitated", FacilitatedDiffusion()),
-        Protocol("pool, background", PooledTransport(), 0.5),
-        Protocol("pool", PooledTransport()),
-        Protocol("polar, background", PolarTransport(), 0.1),
-    )
-}
-"""Protocols by name."""
 
 
 @dataclass(frozen=True)
@@ -149,6 +113,8 @@ def summary(found: list[Outcome]) -> dict[str, Any]:
     row |= _rate("hit_by_cells", [one.is_hit_by_cells for one in found])
     row |= _rate("as_closed", [one.is_as_closed for one in found])
     row |= {
+        # how clear the clearest miss was
+        "miss_q_min": min((one.q for one in found if not one.is_hit), default=None),
         "misses": [one.seed for one in found if not one.is_hit],
         "clear_misses": [one.seed for one in clear if not one.is_hit],
         "formed": sum(one.is_formed for one in found),
@@ -163,6 +129,7 @@ def summary(found: list[Outcome]) -> dict[str, Any]:
         values = values[np.isfinite(values)]
         row[f"{name}_median"] = float(np.median(values)) if len(values) else None
         row[f"{name}_p90"] = float(np.quantile(values, 0.9)) if len(values) else None
+        row[f"{name}_max"] = float(values.max()) if len(values) else None
     return row
 
 

@@ -7,7 +7,8 @@ import numpy as np
 
 from vasc.arrays import Floats, Ids
 from vasc.domain import Tissue
-from vasc.domain.tilings import rectangular
+from vasc.domain.tilings import hexagonal, rectangular
+from vasc.domain.voronoi import voronoi
 from vasc.streams import Streams
 
 COLUMNS, ROWS = 27, 21
@@ -21,6 +22,8 @@ TRIES = 10_000
 
 TISSUES: dict[str, Callable[[int, int, int], Tissue]] = {
     "rectangular": lambda columns, rows, seed: rectangular(columns, rows),
+    "hexagonal": lambda columns, rows, seed: hexagonal(columns, rows),
+    "voronoi": lambda columns, rows, seed: voronoi(columns, rows, Streams(seed)["placement"]),
 }
 """Tissues by name, of columns, rows and the seed of those that are drawn."""
 
