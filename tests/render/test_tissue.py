@@ -264,3 +264,9 @@ class TestFiles:
         with Image.open(film) as pictures:
             assert pictures.n_frames == 3
         assert told == [(1, 3), (2, 3), (3, 3)]
+
+    def test_a_gif_keeps_the_colors_of_rings(self, tmp_path):
+        with Image.open(animate(recording(30, 15), tmp_path / "a.gif")) as pictures:
+            first = np.asarray(pictures.convert("RGB")).astype(int)
+        assert is_like(first, "#d3122e", 12).sum() > 20
+        assert is_like(first, "#1b9e3e", 12).sum() > 20

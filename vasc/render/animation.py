@@ -15,15 +15,20 @@ from vasc.errors import OutputError, VascError
 from vasc.render.files import node_widths, open_run, widths_of
 from vasc.render.leaf import draw_leaf, fitted_widths, narrowest_of, view_of
 from vasc.render.saving import checked_output
-from vasc.render.styles import DPI, TISSUE_COLOR_CHOICES, LeafStyle
+from vasc.render.styles import DPI, SOURCE_STATE_COLORS, TISSUE_COLOR_CHOICES, LeafStyle
 from vasc.render.tissue_files import chosen_color, tissue_figures
+from vasc.render.tissue_style import TissueStyle
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from PIL.Image import Image as Picture
 
     from vasc.timeline import Timeline
 
 FILM_SUFFIXES = (".mp4", ".gif")
+N_COLORS = 128
+"""Colours of a gif, besides those of marks."""
+MARKS = (TissueStyle.source, TissueStyle.sink, TissueStyle.arrow, *SOURCE_STATE_COLORS.values())
 Pixels = NDArray[np.uint8]
 """A picture, shape (height, width, 3)."""
 
@@ -230,9 +235,7 @@ def _write_gif(pictures: Iterator[Pixels], output: Path, film: Film) -> None:
     """Write pictures as a gif that repeats."""
     from PIL import Image
 
-    small = [
-        Image.fromarray(picture).quantize(128, dither=Image.Dither.NONE) for picture in pictures
-    ]
+    small = [_with_palette(Image.fromarray(picture)) for picture in pictures]
     pause = 1000 // film.pictures_per_second
     pauses = [pause] * (len(small) - 1) + [pause + round(1000 * film.rest)]
     unfinished = output.with_name(f".{output.stem}.unfinished.gif")
@@ -241,3 +244,15 @@ def _write_gif(pictures: Iterator[Pixels], output: Path, film: Film) -> None:
         unfinished.replace(output)
     finally:
         unfinished.unlink(missing_ok=True)
+
+
+def _with_palette(picture: Picture) -> Picture:
+    """Reduce a picture to the colours of a gif; those of small marks are kept as they are."""
+    from PIL import Image
+
+    chosen = picture.quantize(N_COLORS, dither=Image.Dither.NONE)
+    # where there are many shades of another colour, few pixels of a mark get none of their own
+    marks = [channel for color in MARKS for channel in bytes.fromhex(color[1:])]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([*(chosen.getpalette() or [])[: 3 * N_COLORS], *marks])
+    return picture.quantize(palette=palette, dither=Image.Dither.NONE)

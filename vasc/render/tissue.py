@@ -126,10 +126,16 @@ def draw_tissue(
     if key:
         draw_key(ax, key_of(color, scale, unit))
     if title:
-        _write_title(ax, f"step {moment.step}, time {moment.time:.3g}")
+        _write_title(ax, title_of(moment))
     figure = ax.get_figure(root=True)
     assert figure is not None
     return figure
+
+
+def title_of(moment: Moment) -> str:
+    """Give step and time in words."""
+    time = f"{moment.time:.3g}" if moment.time < 1000.0 else f"{moment.time:,.0f}"
+    return f"step {moment.step}, time {time}"
 
 
 def view_of_tissue(moment: Moment, *, side: float = SIDE) -> View:
