@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -113,37 +113,50 @@ def animate(
         if timeline.dimensions == 3:
             raise VascError(f"{timeline.path}: films are made of leaves; draw it with vasc render")
         color = chosen_color(timeline, color)
-        last = timeline.frame(-1)
+        steps = chosen_steps(timeline.last_step, film.n_pictures, every)
+        side = film.pixels / DPI
         if color in TISSUE_COLOR_CHOICES:
-            steps = chosen_steps(last.step, film.n_pictures, every)
-            figures = tissue_figures(timeline, steps, color, scale_bar, film.pixels / DPI)
-            write(_told(map(_pixels, figures), len(steps), progress), output, film)
-            return output
-        narrowest = narrowest_of(last, color)
-        view = view_of(last.blade, style, side=film.pixels / DPI, narrowest=narrowest)
-        steps = chosen_steps(last.step, film.n_pictures, every)
-        asked = widths or widths_of(timeline)
-        stretched = node_widths(timeline, asked, steps)
-        settled = fitted_widths(last, asked, style, view, stretched.get(last.step))
-
-        def pictures() -> Iterator[Pixels]:
-            for step in steps:
-                figure = draw_leaf(
-                    timeline.frame(step),
-                    color=color,
-                    widths=settled,
-                    node_widths=stretched.get(step),
-                    sources=sources,
-                    scale_bar=scale_bar,
-                    units=timeline.units,
-                    style=style,
-                    view=view,
-                    last_step=last.step,
-                )
-                yield _pixels(figure)
-
-        write(_told(pictures(), len(steps), progress), output, film)
+            figures = tissue_figures(timeline, steps, color, scale_bar, side)
+        else:
+            asked = widths or widths_of(timeline)
+            look = LeafLook(color, asked, sources, scale_bar, style, side)
+            figures = _leaf_figures(timeline, steps, look)
+        write(_told(map(_pixels, figures), len(steps), progress), output, film)
     return output
+
+
+class LeafLook(NamedTuple):
+    """How all leaves of a film are drawn: see :func:`vasc.render.draw_leaf`."""
+
+    color: str
+    widths: WidthParameters
+    sources: bool
+    scale_bar: bool
+    style: LeafStyle
+    side: float
+    """Longer side of the film, in inches."""
+
+
+def _leaf_figures(timeline: Timeline, steps: list[int], look: LeafLook) -> Iterator[Figure]:
+    """Draw leaves one after the other, at the scale and with the widths of the last."""
+    last = timeline.frame(-1)
+    narrowest = narrowest_of(last, look.color)
+    view = view_of(last.blade, look.style, side=look.side, narrowest=narrowest)
+    stretched = node_widths(timeline, look.widths, steps)
+    settled = fitted_widths(last, look.widths, look.style, view, stretched.get(last.step))
+    for step in steps:
+        yield draw_leaf(
+            timeline.frame(step),
+            color=look.color,
+            widths=settled,
+            node_widths=stretched.get(step),
+            sources=look.sources,
+            scale_bar=look.scale_bar,
+            units=timeline.units,
+            style=look.style,
+            view=view,
+            last_step=last.step,
+        )
 
 
 def chosen_steps(last: int, n_pictures: int, every: int | None = None) -> list[int]:
