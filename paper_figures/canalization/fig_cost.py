@@ -19,7 +19,7 @@ TRANSPORTS = {
 
 
 def formation(side: int, transport: Transport) -> float:
-    """Give the seconds in which a canal forms in a square tissue, from a source to a sink of two."""
+    """Give the seconds in which a canal forms in a square tissue with two sinks."""
     tissue = rectangular(side, side)
     places = [(side // 4, side - 2), (3 * side // 4, side - 2)]
     veins = [tissue.nearest_cells([place]) for place in places]

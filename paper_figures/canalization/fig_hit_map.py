@@ -5,7 +5,6 @@ from pathlib import Path
 import numpy as np
 from scenes import (
     GREEN,
-    GREY,
     INK,
     MODELS,
     draw_cells,

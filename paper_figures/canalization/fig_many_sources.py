@@ -63,7 +63,7 @@ def colonized(tissue: Tissue, sources: NDArray[np.int32], base: int) -> VeinNetw
 
 
 def spanning_tree(points: NDArray) -> tuple[NDArray, NDArray]:
-    """Give the edges of the minimum spanning tree, and how many points each serves; 0 is the root."""
+    """Give the minimum spanning tree: edges from point 0 on, and how many points each serves."""
     from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
     from scipy.spatial.distance import pdist, squareform
 

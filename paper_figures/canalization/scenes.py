@@ -22,7 +22,6 @@ from vasc.models.injection import GivenInjection
 from vasc.models.settling import Settling
 from vasc.models.transport import (
     FacilitatedDiffusion,
-    PolarTransport,
     PooledTransport,
     Transport,
 )

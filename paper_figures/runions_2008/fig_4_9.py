@@ -11,6 +11,8 @@ from panels import grown, letter, output_of
 from vasc.render import TissueStyle, View, draw_tissue, save, scale_of
 from vasc.state import State
 
+WIDTH, HEIGHT = 7.0, 7.35
+"""Of the figure, in the measure of its panels, about an inch."""
 COLUMNS, ROWS = 31, 17
 SINKS = ((5, 16), (25, 16))
 SOURCES = {"b": None, "c": (12, 4), "d": (18, 4)}
@@ -77,24 +79,22 @@ def explain(ax: Axes, state: State, middle: tuple[float, float], words: dict) ->
 
 
 def panel(figure: Figure, place: tuple[float, float, float, float]) -> Axes:
-    """Add a panel, with places in inches from the upper left corner of the figure."""
-    width, height = figure.get_size_inches()
+    """Add a panel, measured from the upper left corner of the figure."""
     left, top, across, down = place
-    return figure.add_axes(
-        (left / width, 1.0 - (top + down) / height, across / width, down / height)
-    )
+    bottom = HEIGHT - top - down
+    return figure.add_axes((left / WIDTH, bottom / HEIGHT, across / WIDTH, down / HEIGHT))
 
 
 def main(output: Path) -> None:
     """Draw the figure."""
-    figure = Figure(figsize=(7.0, 7.35), facecolor="white")
+    figure = Figure(figsize=(6.66, 6.99), facecolor="white")
     FigureCanvasAgg(figure)
     for column, (transport, name) in enumerate(TRANSPORTS.items()):
         left = 0.05 + 3.48 * column
         states = {at: experiment(transport, source)[-1] for at, source in SOURCES.items()}
         scale = scale_of(states.values())
         figure.text(
-            (left + 1.71) / 7.0, 1 - 0.13 / 7.35, name, ha="center", va="center", fontsize=9
+            (left + 1.71) / WIDTH, 1 - 0.13 / HEIGHT, name, ha="center", va="center", fontsize=9
         )
         ax = panel(figure, (left, 0.27, 3.42, 0.96))
         explain(ax, states["c"], CORNER[transport], WORDS[transport])

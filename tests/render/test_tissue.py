@@ -190,9 +190,11 @@ class TestPicture:
         assert is_like(pixels, "#1b9e3e").sum() > 100
 
     def test_fine_cells_have_no_outline_and_lines_instead_of_arrows(self, tmp_path):
+        large = pixels_of(row_of_cells(30, 15), tmp_path / "b.png")
+        assert is_like(large, "#b9bec4", 20).sum() > 5000
         moment = row_of_cells(300, 150)
         pixels = pixels_of(moment, tmp_path / "a.png")
-        assert is_like(pixels, "#b9bec4", 20).sum() < 100
+        assert is_like(pixels, "#b9bec4", 20).sum() < 500
         assert is_like(pixels, "#e8590c").sum() > 1000
 
     @pytest.mark.parametrize("color", TISSUE_COLOR_CHOICES)
@@ -262,3 +264,9 @@ class TestFiles:
         with Image.open(film) as pictures:
             assert pictures.n_frames == 3
         assert told == [(1, 3), (2, 3), (3, 3)]
+
+    def test_a_gif_keeps_the_colors_of_rings(self, tmp_path):
+        with Image.open(animate(recording(30, 15), tmp_path / "a.gif")) as pictures:
+            first = np.asarray(pictures.convert("RGB")).astype(int)
+        assert is_like(first, "#d3122e", 12).sum() > 20
+        assert is_like(first, "#1b9e3e", 12).sum() > 20

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,15 +15,20 @@ from vasc.errors import OutputError, VascError
 from vasc.render.files import node_widths, open_run, widths_of
 from vasc.render.leaf import draw_leaf, fitted_widths, narrowest_of, view_of
 from vasc.render.saving import checked_output
-from vasc.render.styles import DPI, TISSUE_COLOR_CHOICES, LeafStyle
+from vasc.render.styles import DPI, SOURCE_STATE_COLORS, TISSUE_COLOR_CHOICES, LeafStyle
 from vasc.render.tissue_files import chosen_color, tissue_figures
+from vasc.render.tissue_style import TissueStyle
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from PIL.Image import Image as Picture
 
     from vasc.timeline import Timeline
 
 FILM_SUFFIXES = (".mp4", ".gif")
+N_COLORS = 128
+"""Colours of a gif, besides those of marks."""
+MARKS = (TissueStyle.source, TissueStyle.sink, TissueStyle.arrow, *SOURCE_STATE_COLORS.values())
 Pixels = NDArray[np.uint8]
 """A picture, shape (height, width, 3)."""
 
@@ -108,37 +113,50 @@ def animate(
         if timeline.dimensions == 3:
             raise VascError(f"{timeline.path}: films are made of leaves; draw it with vasc render")
         color = chosen_color(timeline, color)
-        last = timeline.frame(-1)
+        steps = chosen_steps(timeline.last_step, film.n_pictures, every)
+        side = film.pixels / DPI
         if color in TISSUE_COLOR_CHOICES:
-            steps = chosen_steps(last.step, film.n_pictures, every)
-            figures = tissue_figures(timeline, steps, color, scale_bar, film.pixels / DPI)
-            write(_told(map(_pixels, figures), len(steps), progress), output, film)
-            return output
-        narrowest = narrowest_of(last, color)
-        view = view_of(last.blade, style, side=film.pixels / DPI, narrowest=narrowest)
-        steps = chosen_steps(last.step, film.n_pictures, every)
-        asked = widths or widths_of(timeline)
-        stretched = node_widths(timeline, asked, steps)
-        settled = fitted_widths(last, asked, style, view, stretched.get(last.step))
-
-        def pictures() -> Iterator[Pixels]:
-            for step in steps:
-                figure = draw_leaf(
-                    timeline.frame(step),
-                    color=color,
-                    widths=settled,
-                    node_widths=stretched.get(step),
-                    sources=sources,
-                    scale_bar=scale_bar,
-                    units=timeline.units,
-                    style=style,
-                    view=view,
-                    last_step=last.step,
-                )
-                yield _pixels(figure)
-
-        write(_told(pictures(), len(steps), progress), output, film)
+            figures = tissue_figures(timeline, steps, color, scale_bar, side)
+        else:
+            asked = widths or widths_of(timeline)
+            look = LeafLook(color, asked, sources, scale_bar, style, side)
+            figures = _leaf_figures(timeline, steps, look)
+        write(_told(map(_pixels, figures), len(steps), progress), output, film)
     return output
+
+
+class LeafLook(NamedTuple):
+    """How all leaves of a film are drawn: see :func:`vasc.render.draw_leaf`."""
+
+    color: str
+    widths: WidthParameters
+    sources: bool
+    scale_bar: bool
+    style: LeafStyle
+    side: float
+    """Longer side of the film, in inches."""
+
+
+def _leaf_figures(timeline: Timeline, steps: list[int], look: LeafLook) -> Iterator[Figure]:
+    """Draw leaves one after the other, at the scale and with the widths of the last."""
+    last = timeline.frame(-1)
+    narrowest = narrowest_of(last, look.color)
+    view = view_of(last.blade, look.style, side=look.side, narrowest=narrowest)
+    stretched = node_widths(timeline, look.widths, steps)
+    settled = fitted_widths(last, look.widths, look.style, view, stretched.get(last.step))
+    for step in steps:
+        yield draw_leaf(
+            timeline.frame(step),
+            color=look.color,
+            widths=settled,
+            node_widths=stretched.get(step),
+            sources=look.sources,
+            scale_bar=look.scale_bar,
+            units=timeline.units,
+            style=look.style,
+            view=view,
+            last_step=last.step,
+        )
 
 
 def chosen_steps(last: int, n_pictures: int, every: int | None = None) -> list[int]:
@@ -230,9 +248,7 @@ def _write_gif(pictures: Iterator[Pixels], output: Path, film: Film) -> None:
     """Write pictures as a gif that repeats."""
     from PIL import Image
 
-    small = [
-        Image.fromarray(picture).quantize(128, dither=Image.Dither.NONE) for picture in pictures
-    ]
+    small = [_with_palette(Image.fromarray(picture)) for picture in pictures]
     pause = 1000 // film.pictures_per_second
     pauses = [pause] * (len(small) - 1) + [pause + round(1000 * film.rest)]
     unfinished = output.with_name(f".{output.stem}.unfinished.gif")
@@ -241,3 +257,15 @@ def _write_gif(pictures: Iterator[Pixels], output: Path, film: Film) -> None:
         unfinished.replace(output)
     finally:
         unfinished.unlink(missing_ok=True)
+
+
+def _with_palette(picture: Picture) -> Picture:
+    """Reduce a picture to the colours of a gif; those of small marks are kept as they are."""
+    from PIL import Image
+
+    chosen = picture.quantize(N_COLORS, dither=Image.Dither.NONE)
+    # where there are many shades of another colour, few pixels of a mark get none of their own
+    marks = [channel for color in MARKS for channel in bytes.fromhex(color[1:])]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([*(chosen.getpalette() or [])[: 3 * N_COLORS], *marks])
+    return picture.quantize(palette=palette, dither=Image.Dither.NONE)

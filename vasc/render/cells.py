@@ -1,4 +1,4 @@
-"""Shapes that show what passes between cells: ends of walls, arrows across them, bars along them."""
+"""Shapes that show what passes between cells: ends of walls, arrows across, bars along them."""
 
 import numpy as np
 from numpy.typing import NDArray

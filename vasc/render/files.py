@@ -29,6 +29,7 @@ from vasc.render.tissue_files import chosen_color, draw_steps
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
     from vasc.timeline import Frame, Timeline
 
@@ -98,38 +99,32 @@ def render(
             )
         if unroll:
             raise VascError(f"unroll: only a stem can be unrolled, not a {timeline.model!r} run")
-        frames = [timeline.frame(at) for at in steps]
-        if not frames:
-            raise VascError("steps: expected at least one step, got none")
+        frames = _frames_at(timeline, steps)
+        side = pixels / DPI
         if color in TISSUE_COLOR_CHOICES:
-            side = pixels / DPI
             figure = draw_steps(timeline, frames, color=color, scale_bar=scale_bar, side=side)
-            save(figure, output)
-            return output
-        widths = widths_of(timeline) if widths is None else widths
-        style = LeafStyle() if style is None else style
-        views = _views(frames, style, pixels / DPI, narrowest_of(frames[-1], color))
-        stretched = node_widths(timeline, widths, [frame.step for frame in frames])
-        last = frames[-1]
-        widths = fitted_widths(last, widths, style, views[-1], stretched.get(last.step))
-        figure, axes = side_by_side(views, style)
-        for frame, view, ax in zip(frames, views, axes, strict=True):
-            draw_leaf(
-                frame,
-                ax,
-                color=color,
-                widths=widths,
-                node_widths=stretched.get(frame.step),
-                sources=sources,
-                scale_bar=scale_bar and frame is frames[0],
-                key=frame is frames[-1],
-                units=timeline.units,
-                style=style,
-                view=view,
-                last_step=max(each.step for each in frames),
-            )
-            if len(frames) > 1:
-                _write_step(ax, frame.step)
+        else:
+            widths = widths_of(timeline) if widths is None else widths
+            style = LeafStyle() if style is None else style
+            figure, axes, views = _laid_out(frames, color, style, side)
+            stretched = node_widths(timeline, widths, [frame.step for frame in frames])
+            last = frames[-1]
+            widths = fitted_widths(last, widths, style, views[-1], stretched.get(last.step))
+            for frame, view, ax in zip(frames, views, axes, strict=True):
+                draw_leaf(
+                    frame,
+                    ax,
+                    color=color,
+                    widths=widths,
+                    node_widths=stretched.get(frame.step),
+                    sources=sources,
+                    scale_bar=scale_bar and frame is frames[0],
+                    key=frame is last,
+                    units=timeline.units,
+                    style=style,
+                    view=view,
+                    last_step=max(each.step for each in frames),
+                )
         save(figure, output)
     return output
 
@@ -195,6 +190,25 @@ def _views(frames: Sequence[Frame], style: LeafStyle, side: float, last_width: f
     ground = min(view.box[1] for view in views)
     above = 2.0 * TEXT_SIZE / scale
     return [View((view.box[0], ground, view.box[2], view.box[3] + above), scale) for view in views]
+
+
+def _frames_at(timeline: Timeline, steps: Sequence[int]) -> list[Frame]:
+    """Give the frames of some steps; refuse none."""
+    if not steps:
+        raise VascError("steps: expected at least one step, got none")
+    return [timeline.frame(step) for step in steps]
+
+
+def _laid_out(
+    frames: Sequence[Frame], color: str, style: LeafStyle, side: float
+) -> tuple[Figure, list[Axes], list[View]]:
+    """Make a figure for some leaves, with the step over each where there are several."""
+    views = _views(frames, style, side, narrowest_of(frames[-1], color))
+    figure, axes = side_by_side(views, style)
+    if len(frames) > 1:
+        for frame, ax in zip(frames, axes, strict=True):
+            _write_step(ax, frame.step)
+    return figure, axes, views
 
 
 def _write_step(ax: Axes, step: int) -> None:

@@ -135,5 +135,6 @@ def _add(ax: Axes, shapes: Shapes, color: str, zorder: float) -> None:
 
     if len(shapes):
         ax.add_collection(
-            PolyCollection(shapes, facecolors=color, linewidths=0.0, zorder=zorder), autolim=False
+            PolyCollection(list(shapes), facecolors=color, linewidths=0.0, zorder=zorder),
+            autolim=False,
         )

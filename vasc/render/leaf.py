@@ -88,7 +88,7 @@ def view_of(
     -------
     View
     """
-    width, height = _padded(blade, style)[2:]
+    width, height = padded(blade, style)[2:]
     strip = STRIP if with_strip else 0.0
     scale = min(72.0 * side / width, (72.0 * side - strip) / height)
     return view_at(blade, style, scale, with_strip=with_strip, narrowest=narrowest)
@@ -121,7 +121,7 @@ def view_at(
     -------
     View
     """
-    x, y, width, height = _padded(blade, style)
+    x, y, width, height = padded(blade, style)
     strip = (STRIP if with_strip else 0.0) / points_per_length
     half_width = max(width, 72.0 * narrowest / points_per_length) / 2.0
     half_height = max(height, 72.0 * NARROWEST / points_per_length - strip) / 2.0
@@ -258,7 +258,7 @@ def fitted_widths(
     return _fit(moment, counted, widths, style, view)
 
 
-def _padded(blade: Blade, style: LeafStyle) -> tuple[float, float, float, float]:
+def padded(blade: Blade, style: LeafStyle) -> tuple[float, float, float, float]:
     """Give the middle (x, y), width and height of a blade with paper around it."""
     left, bottom, right, top = blade.bounds
     padding = 2.0 * style.padding * max(right - left, top - bottom)

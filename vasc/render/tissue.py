@@ -9,15 +9,14 @@ import numpy as np
 
 from vasc.analysis.moment import Moment, blade_of
 from vasc.analysis.units import LengthUnit
-from vasc.domain.tissue import Tissue
 from vasc.errors import VascError
 from vasc.fields import Role
 from vasc.network import Origin
 from vasc.render.flows import draw_arrows, draw_carriers, draw_streams
 from vasc.render.keys import draw_key, size_in_points
-from vasc.render.leaf import SIDE, View, new_axes, view_of, view_on
+from vasc.render.leaf import SIDE, View, new_axes, padded, view_at, view_on
 from vasc.render.looks import gradient
-from vasc.render.styles import INK, TEXT_SIZE, TISSUE_COLOR_CHOICES, Key, LeafStyle
+from vasc.render.styles import INK, STRIP, TEXT_SIZE, TISSUE_COLOR_CHOICES, Key, LeafStyle
 from vasc.render.surroundings import draw_scale_bar
 from vasc.render.tissue_style import (
     BLUES,
@@ -35,8 +34,12 @@ if TYPE_CHECKING:
 
 SMALLEST_RINGED = 5.0
 """Width of a cell from which on every cell of a vein has a ring, in pt."""
+NARROWEST = 4.0
+"""Width of a picture at least, in inches, so that scale bar and key fit."""
 MAX_VECTOR_CELLS = 6000
 """Cells beyond which they are pixels even in an svg or pdf."""
+SEAM = 0.3
+"""Outline in a cell's own colour that covers the seam to the next, in pt."""
 N_SHADES = 256
 NAMES = {"concentration": "auxin", "flux": "flux through a cell", "carriers": "carriers"}
 
@@ -123,38 +126,26 @@ def draw_tissue(
     if key:
         draw_key(ax, key_of(color, scale, unit))
     if title:
-        _write_title(ax, f"step {moment.step}, time {moment.time:.3g}")
+        _write_title(ax, title_of(moment))
     figure = ax.get_figure(root=True)
     assert figure is not None
     return figure
 
 
+def title_of(moment: Moment) -> str:
+    """Give step and time in words."""
+    time = f"{moment.time:.3g}" if moment.time < 1000.0 else f"{moment.time:,.0f}"
+    return f"step {moment.step}, time {time}"
+
+
 def view_of_tissue(moment: Moment, *, side: float = SIDE) -> View:
-    """Give a view of a whole tissue, with room for a title above it; ``side`` in inches."""
-    view = view_of(blade_of(moment), LeafStyle(), side=side, narrowest=4.0)
-    # the title takes its share of the side that the leaf had for itself
-    height = view.inches[1]
-    total = height + 2.0 * TEXT_SIZE / 72.0
-    points = view.points_per_length * (min(1.0, side / total) if total > side else 1.0)
-    return with_title(view_at_scale(view, points))
-
-
-def view_at_scale(view: View, points_per_length: float) -> View:
-    """Give a view of the same middle and paper size at another scale."""
-    left, bottom, right, top = view.box
-    share = view.points_per_length / points_per_length
-    x, y = (left + right) / 2.0, (bottom + top) / 2.0
-    half_width, half_height = (right - left) / 2.0 * share, (top - bottom) / 2.0 * share
-    return View(
-        (x - half_width, y - half_height, x + half_width, y + half_height), points_per_length
-    )
-
-
-def with_title(view: View) -> View:
-    """Give a view with room for a line of words above."""
-    left, bottom, right, top = view.box
-    above = 2.0 * TEXT_SIZE / view.points_per_length
-    return View((left, bottom, right, top + above), view.points_per_length)
+    """Give a view of a whole tissue, with room for a title; ``side`` is the longer, in inches."""
+    blade, style = blade_of(moment), LeafStyle()
+    _, _, width, height = padded(blade, style)
+    above = 2.0 * TEXT_SIZE
+    scale = min(72.0 * side / width, (72.0 * side - STRIP - above) / height)
+    left, bottom, right, top = view_at(blade, style, scale, narrowest=min(NARROWEST, side)).box
+    return View((left, bottom, right, top + above / scale), scale)
 
 
 def key_of(color: str, scale: TissueScale, unit: str = "") -> Key:
@@ -190,7 +181,7 @@ def _shade(
             facecolors=faces,
             # without an outline a hair of the cell's own colour covers the seams
             edgecolors=style.outline if is_outlined else faces,
-            linewidths=min(0.04 * cell, 0.6) if is_outlined else 0.3,
+            linewidths=min(0.04 * cell, 0.6) if is_outlined else SEAM,
             rasterized=tissue.n_cells > MAX_VECTOR_CELLS,
             zorder=1.0,
         ),

@@ -45,6 +45,8 @@ def chosen_color(timeline: Timeline, color: str | None) -> str:
 
 def unit_of(config: Mapping[str, Any], color: str) -> str:
     """Give the unit of what cells are shaded by; empty where it has none of its own."""
+    if config.get("kind") == "up-the-gradient":
+        return "Au/µm²" if color == "concentration" else ""
     kind = (config.get("transport") or {}).get("kind", "")
     if color == "concentration":
         return CONCENTRATIONS.get(kind, "")

@@ -109,7 +109,7 @@ def scale_of(moments: Iterable[Moment], color: str = "concentration") -> TissueS
     """Give a scale that suits some steps, to be used for all of them."""
     shade = flux = carriers = 0.0
     for moment in moments:
-        tissue, fields = tissue_of_moment(moment)
+        _, fields = tissue_of_moment(moment)
         is_ground = fields.roles != Role.VEIN
         seen = shades_of(moment, color)[is_ground]
         shade = max(shade, float(np.percentile(seen, ROBUST)) if len(seen) else 0.0)
