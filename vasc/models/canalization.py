@@ -17,7 +17,7 @@ from vasc.domain import Tissue
 from vasc.errors import RunError
 from vasc.events import EventKind, StopReason
 from vasc.fields import Fields, Role
-from vasc.models.base import Model
+from vasc.models.base import Model, newest
 from vasc.models.canal_cells import CanalCells
 from vasc.models.cell_sources import AnyCellSources
 from vasc.models.injection import Injection
@@ -34,16 +34,14 @@ DIVERGED = 1e3
 """Nothing that settles passes more than that through one cell, over all that is made."""
 
 
-class Canals(NamedTuple):
-    """What a model on a tissue goes on from."""
+class Progress(NamedTuple):
+    """What a state goes on from, besides its fields."""
 
     cells: CanalCells
     began: float
     """Time at which the last sources appeared, or the run began."""
     is_settled: bool
     """Whether the walls had come to rest, so that the next sources may appear."""
-    counts: tuple[int, ...]
-    """Rows of the tables in the state it belongs to."""
 
 
 @dataclass(frozen=True)
@@ -72,11 +70,12 @@ class Canalization(Model):
 
     def advance(self, state: State, streams: Streams) -> State:
         """Advance one step: inject, transport, adapt."""
-        canals, fields = self.canals_of(state)
-        cells, step, began = canals.cells, state.step + 1, canals.began
+        cells, began, may_inject = newest(state, Progress)
+        fields, step = state.fields, state.step + 1
+        assert fields is not None, "a state of a tissue"
 
         # inject: where the tissue is at rest, the next sources appear
-        if canals.is_settled:
+        if may_inject:
             began = state.time
             self.injection.place(cells, step, streams)
 
@@ -211,37 +210,20 @@ class Canalization(Model):
         """Give the state that the tables and fields describe now."""
         if reason is not None:
             cells.log(step, EventKind.RUN_FINISHED, int(reason))
-        counts = cells.tables.counts()
         return State(
             step=step,
             time=time,
             blade=self.tissue.blade,
             motion=affine(1.0),
             outline_motion=affine(1.0),
-            counts=counts,
+            counts=cells.tables.counts(),
             live=cells.live,
             tables=cells.tables,
-            index=Canals(cells, began, is_settled, counts),
+            index=Progress(cells, began, is_settled),
             is_finished=reason is not None,
             tissue=self.tissue,
             fields=fields,
         )
-
-    @staticmethod
-    def canals_of(state: State) -> tuple[Canals, Fields]:
-        """Give what a state goes on from; it must be the newest of its run.
-
-        Raises
-        ------
-        ValueError
-            If the state has a successor already.
-        """
-        canals = state.index
-        assert isinstance(canals, Canals), "a state of this model"
-        assert state.fields is not None, "a state of this model"
-        if canals.cells.tables.counts() != state.counts:
-            raise ValueError(f"the state of step {state.step} has been advanced already")
-        return canals, state.fields
 
 
 class CanalizationParameters(TissueExperiment):
