@@ -6,13 +6,18 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from vasc.cli.options import AsJson, Force, RunFile
+from vasc.cli.options import AsJson, Force, RunFile, Step
 
 if TYPE_CHECKING:
     from vasc.validation.arabidopsis import SequenceReport
     from vasc.validation.stem_phyllotaxis import ConnectivityReport
+    from vasc.validation.strands import StrandReport
 
-EXAMPLES = ("vasc check sequence arabidopsis.h5", "vasc check connectivity stem.h5")
+EXAMPLES = (
+    "vasc check sequence arabidopsis.h5",
+    "vasc check connectivity stem.h5",
+    "vasc check strand canals.h5",
+)
 """Examples of the group."""
 
 SEQUENCE_EXAMPLES = (
@@ -26,6 +31,12 @@ CONNECTIVITY_EXAMPLES = (
     "vasc check connectivity stem.h5 --json",
 )
 """Examples of ``vasc check connectivity``."""
+
+STRAND_EXAMPLES = (
+    "vasc check strand canals.h5",
+    "vasc check strand canals.h5 --source 0 --json",
+)
+"""Examples of ``vasc check strand``."""
 
 WORDS = {True: "pass", False: "FAIL", None: "open"}
 """What a verdict is called in the table."""
@@ -199,3 +210,66 @@ def _pair(steps: Iterable[int]) -> str:
 def _span(ends: Sequence[int]) -> str:
     """Write the first and the last of a range."""
     return f"{ends[0]} to {ends[-1]}"
+
+
+def strand(
+    path: RunFile,
+    source: Annotated[
+        int | None, typer.Option("--source", min=0, help="A source; the newest if left out.")
+    ] = None,
+    step: Step = -1,
+    as_json: AsJson = False,
+) -> None:
+    """Read to which vein the canal of a source leads, and whether that is the nearest.
+
+    A canal that has become a vein by the step is read when it did. Exit code 1 if there is
+    none; one that leads to another vein than the nearest is no failure.
+    """
+    from vasc.cli.printing import print_json
+    from vasc.timeline import Timeline
+    from vasc.validation.strands import check_strand
+
+    with Timeline(path) as timeline:
+        report = check_strand(timeline, source, step)
+    if as_json:
+        print_json(report.as_json())
+    else:
+        _print_strand(report, path)
+    if not report.passed:
+        raise typer.Exit(1)
+
+
+def _print_strand(report: "StrandReport", path: Path) -> None:
+    """Write the report on a strand for people."""
+    from vasc.cli.printing import print_pairs, print_table
+
+    found = report.as_json()
+    rows = [
+        (
+            one["sink"],
+            one["n_nodes"],
+            f"{one['flux_share']:.3f}",
+            f"{one['distance']:.4g}",
+            f"{one['way']:.4g}",
+            ", ".join(
+                word
+                for word, number in (
+                    ("reached", found["reached"]),
+                    ("nearest", found["nearest"]),
+                    ("nearest over cells", found["nearest_by_cells"]),
+                )
+                if number == one["sink"]
+            ),
+        )
+        for one in found["sinks"]
+    ]
+    print_table(("vein", "nodes", "share of flux", "distance, D", "over cells, D", ""), rows)
+    typer.echo()
+    names = ("formed", "loop", "vortex", "strands", "width", "tortuosity", "is_nearest")
+    pairs = {name.replace("_", " "): found[name] for name in names}
+    print_pairs(
+        {"source": found["source"], "read at step": found["step"]}
+        | pairs
+        | {"is nearest over cells": found["is_nearest_by_cells"], "ends at node": found["end_node"]}
+    )
+    typer.echo(f"{path}: {WORDS[report.passed]}; asked: a canal from the source to a vein")

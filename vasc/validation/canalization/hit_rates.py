@@ -1,4 +1,4 @@
-"""Experiment 1: does a canal reach the vein that the rules of geometry predict?
+"""Experiment 1: how often a canal reaches the vein that the rules of geometry predict.
 
 Hypothesis H1: the open rule, which lets a source attract the nearest vein node, predicts
 where a canal ends (Runions 2008, section 4.1.4). Beside it, for the same scenarios, H2:
@@ -112,6 +112,8 @@ def summary(found: list[Outcome]) -> dict[str, Any]:
     row |= _rate("hit_clear", [one.is_hit for one in clear])
     row |= _rate("hit_by_cells", [one.is_hit_by_cells for one in found])
     row |= _rate("as_closed", [one.is_as_closed for one in found])
+    several = [one.is_as_closed for one in found if one.n_predicted > 1]
+    row |= _rate("as_closed_several", several)
     row |= {
         # how clear the clearest miss was
         "miss_q_min": min((one.q for one in found if not one.is_hit), default=None),

@@ -65,9 +65,7 @@ def veins_one_by_one(protocol: Protocol, seed: int) -> list[dict[str, Any]]:
     return rows
 
 
-def dart(
-    tissue: Tissue, cells: Ids, distance: float, generator: np.random.Generator
-) -> int | None:
+def dart(tissue: Tissue, cells: Ids, distance: float, generator: np.random.Generator) -> int | None:
     """Throw darts at cells until one is as far from all veins as asked; None for none."""
     is_free = apart(tissue, cells) >= distance
     thrown = generator.integers(tissue.n_cells, size=DARTS)

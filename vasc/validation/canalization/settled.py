@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import inf
 
 import numpy as np
 
@@ -104,8 +103,7 @@ def settle(
         raise RunError("the tissue came to no state")
     kinds = state.rows("events", "kind")
     strands = [
-        read_strand(tissue, state.fields, int(cell), veins, transport.activation)
-        for cell in cells
+        read_strand(tissue, state.fields, int(cell), veins, transport.activation) for cell in cells
     ]
     return Settled(
         fields=state.fields,

@@ -126,9 +126,7 @@ def overlap(one: Pattern, other: Pattern) -> float:
     from scipy.spatial import cKDTree
 
     points = [sampled(pattern) for pattern in (one, other)]
-    shares = [
-        float((cKDTree(b).query(a)[0] <= NEAR).mean()) for a, b in (points, reversed(points))
-    ]
+    shares = [float((cKDTree(b).query(a)[0] <= NEAR).mean()) for a, b in (points, reversed(points))]
     return 2.0 * shares[0] * shares[1] / max(sum(shares), 1e-300)
 
 
