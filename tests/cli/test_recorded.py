@@ -341,7 +341,7 @@ def test_a_leaf_is_not_unrolled(recorded, tmp_path, capsys):
 def test_only_a_stem_is_exported(recorded, tmp_path, capsys):
     words = ["export", str(recorded / "leaf.h5"), "-o", str(tmp_path / "a.ply")]
     assert main(words) == 2
-    assert "only a stem can be exported" in capsys.readouterr().err
+    assert "is no stem, but a run of the kind" in capsys.readouterr().err
     (tmp_path / "stem.toml").write_text(STEM)
     run = str(tmp_path / "stem.h5")
     assert main(["run", str(tmp_path / "stem.toml"), "-o", run, "--no-figure", "--quiet"]) == 0

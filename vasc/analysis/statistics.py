@@ -30,37 +30,48 @@ def statistics(moment: Moment, units: Mapping[str, Any] | None = None) -> dict[s
         vein_density`` (length per area), ``areoles, areole_area_mean,
         areole_area_cv`` (standard deviation over mean), ``free_ends,
         junction_degree`` (degree, as text, to its share of the junctions).
-        What cannot be said of a pattern without areoles is None.
-
-    Raises
-    ------
-    VascError
-        If there is no blade, as in a stem.
+        What cannot be said of a pattern without areoles is None, and of a stem all
+        that is said of blades and areoles.
     """
     unit = LengthUnit.from_table(units)
     scale = unit.per_segment
-    network, blade = moment.network, blade_of(moment)
+    network = moment.network
     components = count_components(network)
-    areoles = find_areoles(network)
+    is_in_space = network.positions.shape[1] == 3
+    # all keys are there for any run, in one order
     return {
         "step": int(moment.step),
         "time": float(moment.time),
         "length_unit": unit.name,
-        "blade_length": float(blade.length) * scale,
-        "blade_area": float(blade.area) * scale**2,
+        "blade_length": None,
+        "blade_area": None,
         "nodes": network.n_vein_nodes,
         "segments": network.n_segments,
         "components": components,
         "cycles": count_cycles(network, components=components),
         "vein_length": vein_length(network) * scale,
-        "vein_density": vein_density(network, float(blade.area)) / scale,
-        "areoles": areoles.n_areoles,
-        "areole_area_mean": _known(areoles.mean_area * scale**2),
-        "areole_area_cv": _known(areoles.area_variation),
+        "vein_density": None,
+        "areoles": None,
+        "areole_area_mean": None,
+        "areole_area_cv": None,
         "free_ends": len(free_ends(network)),
         "junction_degree": {
             str(degree): share for degree, share in junction_degree(network).items()
         },
+    } | ({} if is_in_space else _of_blade(moment, scale))
+
+
+def _of_blade(moment: Moment, scale: float) -> dict[str, Any]:
+    """Measure what only a pattern in a blade has."""
+    network, blade = moment.network, blade_of(moment)
+    areoles = find_areoles(network)
+    return {
+        "blade_length": float(blade.length) * scale,
+        "blade_area": float(blade.area) * scale**2,
+        "vein_density": vein_density(network, float(blade.area)) / scale,
+        "areoles": areoles.n_areoles,
+        "areole_area_mean": _known(areoles.mean_area * scale**2),
+        "areole_area_cv": _known(areoles.area_variation),
     }
 
 

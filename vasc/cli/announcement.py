@@ -70,5 +70,5 @@ def _tissue_sentences(state: State) -> list[str]:
     return [
         f"{state.tissue.n_cells:,} cells, {state.tissue.n_walls:,} walls",
         f"each step takes up to {file_size(n_bytes)} of the file,"
-        f" 100 steps up to {file_size(100 * n_bytes)}, mostly a third of that",
+        f" 100 steps up to {file_size(100 * n_bytes)}, mostly two thirds of that",
     ]

@@ -1,6 +1,5 @@
 """``vasc check``: a run held against what is expected of it."""
 
-from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -10,8 +9,6 @@ from vasc.cli.options import AsJson, Force, RunFile, Step
 
 if TYPE_CHECKING:
     from vasc.validation.arabidopsis import SequenceReport
-    from vasc.validation.stem_phyllotaxis import ConnectivityReport
-    from vasc.validation.strands import StrandReport
 
 EXAMPLES = (
     "vasc check sequence arabidopsis.h5",
@@ -132,6 +129,7 @@ def connectivity(
 
     Exit code 1 if they connect other primordia than predicted, or too few of them do.
     """
+    from vasc.cli.connectivity import print_connectivity, told
     from vasc.cli.printing import print_json
     from vasc.cli.run import check_picture
     from vasc.timeline import Timeline
@@ -154,62 +152,15 @@ def connectivity(
             graph.primordia,
             output,
             radius=graph.radius,
-            title=f"{path.name}: {_pair(report.pair)}, predicted {_pair(report.prediction.pair)}",
+            title=f"{path.name}: {told(report.steps, report.prediction)},"
+            f" predicted {told(report.prediction.steps, report.prediction)}",
         )
     if as_json:
         print_json(report.as_json() | {"files": [] if output is None else [str(output)]})
     else:
-        _print_connectivity(report, path, output)
+        print_connectivity(report, path, output)
     if not report.passed:
         raise typer.Exit(1)
-
-
-def _print_connectivity(report: "ConnectivityReport", path: Path, output: Path | None) -> None:
-    """Write the report on connectivity for people."""
-    from vasc.cli.printing import print_pairs, print_table, shown
-
-    found = report.as_json()
-    low, high = (shown(end) for end in found["interval"])
-    parastichies = found["parastichies"]
-    print_pairs(
-        {
-            "divergence, in degrees": found["divergence"],
-            "R, H, in D": f"{shown(found['radius'])}, {shown(found['rise'])}",
-            "R/H": f"{found['ratio']:.4g}; the prediction holds from {low} to {high}",
-            "primordia": f"{found['primordia']}; judged: {_span(found['judged'])}",
-            "connected": _pair(report.pair),
-            "predicted": f"{_pair(report.prediction.pair)}; on the surface it would be"
-            f" {_pair(report.surface.pair)}",
-            "contact parastichies": f"{_pair(parastichies['numbers'])},"
-            f" {'opposed' if parastichies['opposed'] else 'not opposed'}",
-            "separate sympodia": found["sympodia"],
-            "exactly the pair": f"{found['fraction']:.3f} of those judged",
-        }
-    )
-    if report.exceptions:
-        typer.echo("\nexceptions")
-        rows = [
-            (one.primordium, _pair(one.steps), _pair(one.missing), _pair(one.extra))
-            for one in report.exceptions
-        ]
-        print_table(("primordium", "connected to", "missing", "extra"), rows)
-    if report.tie is not None:
-        typer.echo(f"\n{WORDS[report.tie.passed]}: {report.tie.explanation}")
-    if output is not None:
-        typer.echo(f"written: {output}")
-    asked = "the rule of the tie" if report.tie else f"a share of {report.least_fraction:g}"
-    typer.echo(f"{path}: {WORDS[report.passed]}; asked: the predicted pair, and {asked}")
-
-
-def _pair(steps: Iterable[int]) -> str:
-    """Write steps as the papers do; a dash for none."""
-    text = ", ".join(str(step) for step in steps)
-    return f"({text})" if text else "-"
-
-
-def _span(ends: Sequence[int]) -> str:
-    """Write the first and the last of a range."""
-    return f"{ends[0]} to {ends[-1]}"
 
 
 def strand(
@@ -226,6 +177,7 @@ def strand(
     none; one that leads to another vein than the nearest is no failure.
     """
     from vasc.cli.printing import print_json
+    from vasc.cli.strand import print_strand
     from vasc.timeline import Timeline
     from vasc.validation.strands import check_strand
 
@@ -234,42 +186,6 @@ def strand(
     if as_json:
         print_json(report.as_json())
     else:
-        _print_strand(report, path)
+        print_strand(report, path)
     if not report.passed:
         raise typer.Exit(1)
-
-
-def _print_strand(report: "StrandReport", path: Path) -> None:
-    """Write the report on a strand for people."""
-    from vasc.cli.printing import print_pairs, print_table
-
-    found = report.as_json()
-    rows = [
-        (
-            one["sink"],
-            one["n_nodes"],
-            f"{one['flux_share']:.3f}",
-            f"{one['distance']:.4g}",
-            f"{one['way']:.4g}",
-            ", ".join(
-                word
-                for word, number in (
-                    ("reached", found["reached"]),
-                    ("nearest", found["nearest"]),
-                    ("nearest over cells", found["nearest_by_cells"]),
-                )
-                if number == one["sink"]
-            ),
-        )
-        for one in found["sinks"]
-    ]
-    print_table(("vein", "nodes", "share of flux", "distance, D", "over cells, D", ""), rows)
-    typer.echo()
-    names = ("formed", "loop", "vortex", "strands", "width", "tortuosity", "is_nearest")
-    pairs = {name.replace("_", " "): found[name] for name in names}
-    print_pairs(
-        {"source": found["source"], "read at step": found["step"]}
-        | pairs
-        | {"is nearest over cells": found["is_nearest_by_cells"], "ends at node": found["end_node"]}
-    )
-    typer.echo(f"{path}: {WORDS[report.passed]}; asked: a canal from the source to a vein")

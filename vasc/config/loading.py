@@ -16,7 +16,8 @@ from vasc.config.values import assignment
 from vasc.errors import ConfigError, OutlineError, TimelineError, VascError
 
 if TYPE_CHECKING:
-    from vasc.models.base import LeafVenation, Model
+    from vasc.models.base import Model
+    from vasc.models.leaf import LeafVenation
 
 FILES_KEY = "files"
 """Key of a timeline's config under which the referenced files travel."""
@@ -205,13 +206,13 @@ def _checked(tables: dict[str, Any], folder: Path, label: str) -> "LeafVenation"
 
 def _geometry_problems(parameters: Any, folder: Path) -> list[str]:
     """Describe a blade that cannot be made, or is of a size that no run can hold."""
+    from vasc.models import LeafVenation
     from vasc.models.on_tissue import TissueExperiment
-    from vasc.models.stem import StemVasculature
 
-    if isinstance(parameters, StemVasculature):
-        return []  # its own rules have judged its size
     if isinstance(parameters, TissueExperiment):
         return tissue_problems(parameters, folder)
+    if not isinstance(parameters, LeafVenation):
+        return []  # its own rules have judged its size
     if problems := size_problems(parameters):
         return problems
     if parameters.domain is None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from vasc.models.base import LeafVenation
+    from vasc.models.leaf import LeafVenation
 
 MARGINAL_CLASSES = (
     (1.0, "the tips of veins keep up with the margin: pinnate, with secondaries to the margin"),
@@ -91,8 +91,8 @@ def regime(parameters: "LeafVenation") -> Regime:
         _isogonic(crossing(parameters), found)
     elif growth.kind == "none":
         found.sentences.append("no growth: veins fan out from the petiole toward all sources")
-    placement: Any = parameters.placement
-    if placement.kind == "darts":
+    placement: Any = getattr(parameters, "placement", None)
+    if placement is not None and placement.kind == "darts":
         _darts(placement.density * placement.birth_distance_sources**2, found)
     return found
 

@@ -22,7 +22,7 @@ def sound_cells(rings: Rings) -> Rings:
         If fewer than two cells are left, or a larger part has no wall to the rest; the
         message names the place.
     """
-    while len(pinched := pinched_cells(rings)):
+    while rings.n_cells and len(pinched := pinched_cells(rings)):
         is_kept = np.ones(rings.n_cells, dtype=np.bool_)
         is_kept[pinched] = False
         rings = rings.only(is_kept)

@@ -112,7 +112,7 @@ def walls_of(rings: Rings, sides: Sides) -> tuple[Ids, Floats]:
     found, walls = np.unique(keys, return_inverse=True)
     lengths = np.bincount(walls, np.hypot(*ends[is_wall].T), minlength=len(found))
     pairs = np.stack(np.divmod(found, rings.n_cells), axis=1)
-    return pairs.astype(np.int32), lengths
+    return pairs.astype(np.int32), np.asarray(lengths, dtype=np.float64)
 
 
 def outline_sides(sides: Sides) -> list[list[int]]:
@@ -130,7 +130,8 @@ def outline_sides(sides: Sides) -> list[list[int]]:
     found = []
     while leaving:
         start = next(iter(leaving))
-        ring, corner = [], start
+        ring: list[int] = []
+        corner = start
         while not ring or corner != start:
             ring.append(leaving.pop(corner))
             corner = int(sides.second[ring[-1]])

@@ -129,6 +129,8 @@ def _around(blade: Blade, width: float, height: float) -> tuple[range, range]:
 
 def _tiles(centres: Lattice, around: Lattice, unit: tuple[float, float]) -> Rings:
     """Give equal cells around lattice points; corners are exactly those of neighbors."""
+    if len(centres) == 0:
+        return Rings(np.zeros((0, 2)), np.zeros(0, dtype=np.int64), np.zeros(1, dtype=np.int64))
     places = (centres[:, None] + around).reshape(-1, 2)
     low = places.min(axis=0)
     height = int(np.ptp(places[:, 1])) + 1

@@ -50,12 +50,22 @@ class CanalCells:
         return self.nodes >= 0
 
     def add_veins(self, lines: list[Ids]) -> None:
-        """Begin with veins along lines of neighboring cells; lines that cross are one vein."""
+        """Begin with veins along lines of neighboring cells; lines that cross are one vein.
+
+        A line that comes back to its first cell is a closed vein.
+        """
+        joined = np.zeros((0, 2), dtype=np.int32)
         for line in lines:
-            fresh = line[~self.is_vein[line]]
+            _, first = np.unique(line, return_index=True)
+            once = line[np.sort(first)]
+            fresh = once[~self.is_vein[once]]
             self._add_nodes(0, fresh, np.full(len(fresh), NULL), Origin.SEED, NULL)
-            pairs = np.stack([self.nodes[line[:-1]], self.nodes[line[1:]]], axis=1)
-            self._add_segments(0, pairs, SegmentKind.EXTENSION)
+            joined = np.concatenate(
+                [joined, np.stack([self.nodes[line[:-1]], self.nodes[line[1:]]], axis=1)]
+            )
+        # lines that go the same way have their segments once
+        _, first = np.unique(np.sort(joined, axis=1), axis=0, return_index=True)
+        self._add_segments(0, joined[np.sort(first)], SegmentKind.EXTENSION)
 
     def add_sources(self, step: int, cells: Ids, cause: Cause) -> None:
         """Let sources appear in cells."""
@@ -95,6 +105,39 @@ class CanalCells:
         self.tables["states"].append(
             step=step, what=Kind.SOURCE, id=source, state=SourceState.DRAINED
         )
+
+    def extend(self, step: int, parent: int, cell: int) -> None:
+        """Let a vein extend by one cell; off a node that has a child already, a vein begins."""
+        segments = self.tables["segments"].view("nodes")
+        is_branch = bool((self.tables["nodes"].view("parent") == parent).any())
+        # the first veins have segments, but no parents
+        is_branch |= int((segments == parent).sum()) > 1
+        node = self.tables["nodes"].n_rows
+        self._add_nodes(step, np.array([cell]), np.array([parent]), Origin.CANAL, NULL)
+        self._add_segments(step, np.array([[parent, node]]), SegmentKind.EXTENSION)
+        if is_branch:
+            self.log(step, EventKind.VEIN_INITIATED, node, parent)
+
+    def join(self, step: int, older: int, newer: int) -> None:
+        """Connect two veins, and note the loop if that closes one."""
+        is_loop = newer in self.within(older, self.tables["nodes"].n_rows)
+        row = self.tables["segments"].n_rows
+        self._add_segments(step, np.array([[older, newer]]), SegmentKind.JOIN)
+        self.log(step, EventKind.VEIN_JOINED, row)
+        if is_loop:
+            self.log(step, EventKind.LOOP_CLOSED, row)
+
+    def within(self, node: int, n_segments: int) -> set[int]:
+        """Give the nodes that are so many segments or fewer from one, itself included."""
+        pairs = self.tables["segments"].view("nodes")
+        found = np.array([node])
+        for _ in range(n_segments):
+            ends = pairs[np.isin(pairs, found).any(axis=1)]
+            further = np.union1d(found, ends)
+            if len(further) == len(found):
+                break
+            found = further
+        return set(found.tolist())
 
     def log(self, step: int, kind: EventKind, subject: Ids | int, other: Ids | int = NULL) -> None:
         """Append events."""

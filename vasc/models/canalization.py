@@ -19,8 +19,9 @@ from vasc.events import EventKind, StopReason
 from vasc.fields import Fields, Role
 from vasc.models.base import Model
 from vasc.models.canal_cells import CanalCells
-from vasc.models.injection import GivenInjection, Injection
-from vasc.models.on_tissue import CellSourceParameters, TissueExperiment, in_rounds
+from vasc.models.cell_sources import AnyCellSources
+from vasc.models.injection import Injection
+from vasc.models.on_tissue import TissueExperiment, VeinParameters
 from vasc.models.settling import Settling
 from vasc.models.transport import AnyTransport, Transport
 from vasc.parameters import quantity
@@ -247,7 +248,8 @@ class CanalizationParameters(TissueExperiment):
     """Canalization by the feedback of flux on transport."""
 
     kind: Literal["canalization"] = "canalization"
-    placement: CellSourceParameters = quantity("Where and when sources appear.")
+    veins: VeinParameters = quantity("The veins that are there at first.")
+    placement: AnyCellSources = quantity("Where and when sources appear.")
     background: float = quantity(
         "What all ground cells make together, over what one source makes.",
         default=0.0,
@@ -260,11 +262,11 @@ class CanalizationParameters(TissueExperiment):
     def model(self, folder: Path = Path()) -> Canalization:
         """Give the model; files are looked for in ``folder``."""
         tissue = self.domain.tissue(self.seed, folder)
-        cells, rounds = in_rounds(tissue, self.placement)
+        veins = self.veins.cells(tissue)
         return Canalization(
             tissue=tissue,
             transport=self.transport,
-            injection=GivenInjection(self.veins.cells(tissue), self.background, cells, rounds),
+            injection=self.placement.injection(tissue, veins, self.background, folder),
             settling=self.settling,
             last_step=self.stop.steps,
         )

@@ -65,7 +65,7 @@ class GivenInjection(Injection):
     rounds: Ids
 
     def place(self, cells: CanalCells, step: int, streams: Streams) -> None:
-        """Let the sources of the next round appear; those in cells that are vein by now do not."""
+        """Let the sources of the next round appear; one in a vein by now is drained there."""
         n_placed = cells.tables["sources"].n_rows
         if n_placed == len(self.cells):
             return
@@ -75,3 +75,49 @@ class GivenInjection(Injection):
     def is_over(self, cells: CanalCells) -> bool:
         """Tell whether all sources have appeared."""
         return cells.tables["sources"].n_rows == len(self.cells)
+
+
+@dataclass(frozen=True)
+class DartInjection(Injection):
+    """One source a round, at random where veins are far, by a distance that shrinks.
+
+    Parameters
+    ----------
+    count : int
+        Sources in all.
+    first_distance, last_distance : float
+        A source appears no nearer than that to a vein in the first and in the last round, in
+        D; in between by as much less from round to round. Where no cell is that far, the
+        farthest ones count.
+    """
+
+    count: int
+    first_distance: float
+    last_distance: float
+
+    def place(self, cells: CanalCells, step: int, streams: Streams) -> None:
+        """Throw darts until one finds room: each cell that has room is as likely."""
+        free = self._ground(cells)
+        if self.is_over(cells):
+            return
+        distances = cells.tissue.vein_distances(cells.is_vein)[free]
+        least = min(self.distance(cells.tables["sources"].n_rows), float(distances.max()))
+        roomy = free[distances >= least]
+        # darts that find no room leave no trace: one draw among those that do is the same
+        drawn = int(streams["placement"].random() * len(roomy))
+        cells.add_sources(step, roomy[drawn : drawn + 1], Cause.DART)
+
+    def is_over(self, cells: CanalCells) -> bool:
+        """Tell whether all sources have appeared, or no cell is left for one."""
+        n_placed = cells.tables["sources"].n_rows
+        return n_placed >= self.count or len(self._ground(cells)) == 0
+
+    def distance(self, n_placed: int) -> float:
+        """Give the least distance to veins of the source after some."""
+        share = n_placed / max(1, self.count - 1)
+        return self.first_distance + (self.last_distance - self.first_distance) * share
+
+    @staticmethod
+    def _ground(cells: CanalCells) -> Ids:
+        """Give the cells that are neither vein nor source."""
+        return np.flatnonzero(cells.roles == Role.GROUND).astype(np.int32)

@@ -9,6 +9,8 @@ from pydantic import Field, model_validator
 
 from vasc.arrays import Ids
 from vasc.domain import Tissue
+from vasc.domain.normalization import Pair
+from vasc.domain.tissue import sampled
 from vasc.domain.tissue_parameters import TissueParameters
 from vasc.errors import ConfigError
 from vasc.models.base import (
@@ -20,7 +22,7 @@ from vasc.models.base import (
 )
 from vasc.parameters import Parameters, quantity
 
-Line = Annotated[list[tuple[float, float]], Field(min_length=1)]
+Line = Annotated[list[Pair], Field(min_length=1)]
 
 
 class VeinParameters(Parameters):
@@ -39,8 +41,31 @@ class VeinParameters(Parameters):
         return self
 
     def cells(self, tissue: Tissue) -> list[Ids]:
-        """Give the cells of every vein, along its line."""
-        return [tissue.cells_along(np.array(line)) for line in self.lines]
+        """Give the cells of every vein, along its line; a margin comes back to its first cell.
+
+        Raises
+        ------
+        ConfigError
+            If a line leaves the tissue, or a part of the tissue has no vein.
+        """
+        for row, line in enumerate(self.lines):
+            points = sampled(np.array(line))
+            for x, y in points[tissue.are_outside(points)].tolist():
+                low_x, low_y, high_x, high_y = tissue.blade.bounds
+                raise ConfigError(
+                    f"veins.lines[{row}]: lies outside the tissue at ({x:g}, {y:g}); veins must"
+                    f" lie inside, between ({low_x:g}, {low_y:g}) and ({high_x:g}, {high_y:g})"
+                )
+        lines = [tissue.cells_along(np.array(line)) for line in self.lines]
+        found = lines + (tissue.margins if self.margin else [])
+        far = np.flatnonzero(np.isinf(tissue.hops(np.concatenate(found))))
+        if len(far):
+            x, y = tissue.positions[far[0]].tolist()
+            raise ConfigError(
+                f"veins: no way leads from the cell at ({x:g}, {y:g}) to a vein; each part of a"
+                " tissue needs one"
+            )
+        return found
 
 
 class TissueExperiment(Parameters):
@@ -50,7 +75,6 @@ class TissueExperiment(Parameters):
     reference: str = quantity("The figure or paper it follows.", default="")
     seed: int = quantity("Seed of all randomness.", default=1, ge=0, lt=2**63)
     domain: TissueParameters = quantity("The tissue.")
-    veins: VeinParameters = quantity("The veins that are there at first.")
     stop: StopParameters = quantity("When the run ends.", default=StopParameters())
     record: RecordParameters = quantity("What is recorded.", default=RecordParameters())
     units: UnitParameters | None = quantity("Real units.", default=None)
@@ -64,34 +88,3 @@ class TissueExperiment(Parameters):
     @abstractmethod
     def model(self, folder: Path = Path()) -> Model:
         """Give the model; files are looked for in ``folder``."""
-
-
-class CellSourceParameters(Parameters):
-    """Sources in given places, all at once or in rounds."""
-
-    kind: str = "given"
-    points: list[tuple[float, float]] = quantity(
-        "Places of the sources, pairs [x, y]: the nearest cell of each.", unit="D", default=[]
-    )
-    rounds: list[int] | None = quantity(
-        "Round in which each appears, from 1 on: when the canals of the round before have"
-        " settled. By default all in the first.",
-        default=None,
-    )
-
-    @model_validator(mode="after")
-    def _check(self) -> "CellSourceParameters":
-        """Require one round a point."""
-        if self.rounds is not None and len(self.rounds) != len(self.points):
-            raise ValueError("'rounds' needs one number for each of 'points'")
-        return self
-
-
-def in_rounds(tissue: Tissue, given: CellSourceParameters) -> tuple[Ids, Ids]:
-    """Give the cells of given sources and their rounds, in the order of these."""
-    cells = tissue.nearest_cells(given.points)
-    rounds = np.array(given.rounds or [1] * len(cells), dtype=np.int32)
-    if len(np.unique(cells)) < len(cells):
-        raise ConfigError("placement.points: two sources lie in one cell")
-    order = np.argsort(rounds, kind="stable")
-    return cells[order], rounds[order]

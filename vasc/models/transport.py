@@ -7,10 +7,10 @@ transport); a flux in what one source makes, K.
 """
 
 from abc import abstractmethod
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from vasc.arrays import Floats
 from vasc.domain import Tissue
@@ -50,6 +50,11 @@ class FacilitatedDiffusion(Transport):
     difference of concentrations; D relaxes to l + A flux^2, at most the saturation. A
     saturated wall resists in proportion to d, so that paths compete by their length.
     """
+
+    evidence: ClassVar[str] = (
+        "[R] the equation is recalled from Mitchison (1980), not checked there; [C] with it canals"
+        " form as in Figure 4.9 of Runions (2008)"
+    )
 
     kind: Literal["facilitated"] = "facilitated"
     gain: float = quantity("Feedback gain A = alpha K^2 / beta.", default=3e3, gt=0.0, le=1e12)
@@ -115,6 +120,12 @@ class PolarTransport(PolarWalls):
     closed loops may grow without bound.
     """
 
+    evidence: ClassVar[str] = (
+        "[R] the squared flux is recalled from Mitchison (1981), not checked there; [V] production"
+        " of carriers by flux, their decay and their limit were read in Abley et al. (2016),"
+        " equations 8 to 12, where the flux is not squared"
+    )
+
     kind: Literal["polar"] = "polar"
     gain: float = quantity("Feedback gain A = alpha K^2 / (gamma T).", default=1e3, gt=0, le=1e12)
     saturation: float | Literal["none"] | None = quantity(
@@ -124,6 +135,16 @@ class PolarTransport(PolarWalls):
     baseline: float = quantity(
         "Carriers without flux, B = beta / (gamma T).", default=0.1, gt=0.0, le=1e6
     )
+
+    @model_validator(mode="after")
+    def _check(self) -> "PolarTransport":
+        """Require room for carriers above those without flux."""
+        if self.most <= self.baseline:
+            key = "gain" if self.saturation is None else "saturation"
+            raise ValueError(
+                f"'{key}' is {self.most:g}; it must be greater than 'baseline', {self.baseline:g}"
+            )
+        return self
 
     @property
     def most(self) -> float:
@@ -153,6 +174,10 @@ class PooledTransport(PolarWalls):
     P_ij relaxes to pool w_ij / (1 + sum_j l_ij w_ij), so that the sum over the walls of a
     cell never exceeds the pool.
     """
+
+    evidence: ClassVar[str] = (
+        "[R] the conserved pool is recalled from Feugier et al. (2005), not checked there"
+    )
 
     kind: Literal["pool"] = "pool"
     gain: float = quantity("Feedback gain A = alpha K^2 / (gamma T).", default=30.0, gt=0, le=1e12)

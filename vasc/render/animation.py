@@ -15,7 +15,8 @@ from vasc.errors import OutputError, VascError
 from vasc.render.files import node_widths, open_run, widths_of
 from vasc.render.leaf import draw_leaf, fitted_widths, narrowest_of, view_of
 from vasc.render.saving import checked_output
-from vasc.render.styles import DPI, LeafStyle
+from vasc.render.styles import DPI, TISSUE_COLOR_CHOICES, LeafStyle
+from vasc.render.tissue_files import chosen_color, tissue_figures
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -54,7 +55,7 @@ def animate(
     output: str | Path,
     *,
     every: int | None = None,
-    color: str = "width",
+    color: str | None = None,
     widths: WidthParameters | None = None,
     sources: bool = False,
     scale_bar: bool = True,
@@ -62,7 +63,7 @@ def animate(
     film: Film | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Path:
-    """Write a film of a recorded leaf, seen at the scale of the last blade.
+    """Write a film of a recorded leaf or tissue, seen at the scale of the last blade.
 
     Parameters
     ----------
@@ -73,7 +74,7 @@ def animate(
     every : int, optional
         Draw every so many steps; ``film.n_pictures`` spread evenly if left out.
     color, sources, scale_bar, style
-        See :func:`vasc.render.draw_leaf`.
+        See :func:`vasc.render.render`.
     widths : WidthParameters, optional
         The widths of the run's config if left out. Radii left open are fitted
         to the last step and hold for the whole film.
@@ -106,7 +107,13 @@ def animate(
     with open_run(run) as timeline:
         if timeline.dimensions == 3:
             raise VascError(f"{timeline.path}: films are made of leaves; draw it with vasc render")
+        color = chosen_color(timeline, color)
         last = timeline.frame(-1)
+        if color in TISSUE_COLOR_CHOICES:
+            steps = chosen_steps(last.step, film.n_pictures, every)
+            figures = tissue_figures(timeline, steps, color, scale_bar, film.pixels / DPI)
+            write(_told(map(_pixels, figures), len(steps), progress), output, film)
+            return output
         narrowest = narrowest_of(last, color)
         view = view_of(last.blade, style, side=film.pixels / DPI, narrowest=narrowest)
         steps = chosen_steps(last.step, film.n_pictures, every)
@@ -115,7 +122,7 @@ def animate(
         settled = fitted_widths(last, asked, style, view, stretched.get(last.step))
 
         def pictures() -> Iterator[Pixels]:
-            for count, step in enumerate(steps, start=1):
+            for step in steps:
                 figure = draw_leaf(
                     timeline.frame(step),
                     color=color,
@@ -129,10 +136,8 @@ def animate(
                     last_step=last.step,
                 )
                 yield _pixels(figure)
-                if progress is not None:
-                    progress(count, len(steps))
 
-        write(pictures(), output, film)
+        write(_told(pictures(), len(steps), progress), output, film)
     return output
 
 
@@ -163,6 +168,16 @@ def chosen_steps(last: int, n_pictures: int, every: int | None = None) -> list[i
     if every is not None:
         return sorted({*range(0, last + 1, every), last})
     return np.unique(np.rint(np.linspace(0, last, max(n_pictures, 2))).astype(int)).tolist()
+
+
+def _told(
+    pictures: Iterator[Pixels], n_pictures: int, progress: Callable[[int, int], None] | None
+) -> Iterator[Pixels]:
+    """Pass pictures on, and tell after each how many there are."""
+    for count, picture in enumerate(pictures, start=1):
+        yield picture
+        if progress is not None:
+            progress(count, n_pictures)
 
 
 def _pixels(figure: Figure) -> Pixels:
