@@ -43,6 +43,8 @@ LEAST_P = 0.005
 fails by chance."""
 TOLERANCES = (0.05, 0.3, 1.0)
 """Over which no canal may change its vein."""
+LATTICES = ("rectangular", "hexagonal")
+"""Tissues in which the canals of facilitated diffusion are shortest ways over cells."""
 STRAIGHT = 1.0 + 1e-9
 """Length of a canal over the shortest way over cells, but for rounding."""
 
@@ -171,7 +173,7 @@ def _of_rates(rows: list[dict[str, Any]]) -> Iterator[Check]:
         hits, clear = (sum(row[key] for row in found) for key in ("hit_clears", "hit_clear_n"))
         name = f"{tissue}, facilitated: the same where d/d2 < {CLEAR:g} (n = {clear})"
         yield check(name, hits / max(clear, 1), 1.0, 1.0, CLAIM)
-    for tissue in ("rectangular", "hexagonal"):
+    for tissue in LATTICES:
         found = [row for row in exact if row["tissue"] == tissue]
         by_cells = min(row["hit_by_cells_rate"] for row in found)
         yield check(f"{tissue}, facilitated: nearest over cells", by_cells, 1.0, 1.0, MEASURED)
