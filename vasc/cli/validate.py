@@ -52,6 +52,7 @@ def validate(
     canalization: whether canals reach the vein nodes that the open and the closed rule of
     geometry predict, by which model, and where not.
     """
+    from vasc.cli.canals import print_canalization
     from vasc.cli.printing import print_json
     from vasc.errors import ConfigError
 
@@ -69,7 +70,7 @@ def validate(
         print_json({"suites": suites, "pass": passed})
     else:
         for one in suites:
-            PRINTED[one["name"]](one)
+            (print_canalization if one["name"] == "canalization" else PRINTED[one["name"]])(one)
     if not passed:
         raise typer.Exit(1)
 
@@ -165,63 +166,9 @@ def _print_growth(suite: dict) -> None:
     print_table(("growth", "verdict", "fails", "expected to fail"), rows)
 
 
-def _print_canalization(suite: dict) -> None:
-    """Write the suite of canals for people: what was asked, and the answer."""
-    from vasc.cli.printing import print_table
-
-    rows = [
-        (
-            check["name"],
-            "pass" if check["pass"] else "FAIL",
-            f"{check['value']:.4g}",
-            f"{check['low']:.4g} to {check['high']:.4g}",
-        )
-        for check in suite["checks"]
-    ]
-    print_table(("canals", "verdict", "found", "asked"), rows)
-    typer.echo(
-        "\nDoes a canal reach the vein that the geometric rule predicts?"
-        f" Rates of {suite['n']} scenarios:"
-    )
-    answers = [
-        (
-            f"{row['tissue']} {row['scenario']}",
-            row["protocol"],
-            f"{row['hit_rate']:.2f} ({row['hit_low']:.2f}-{row['hit_high']:.2f})",
-            f"{row['hit_clears']}/{row['hit_clear_n']}",
-            f"{row['hit_by_cells_rate']:.2f}",
-            f"{row['as_closed_rate']:.2f} ({row['as_closed_low']:.2f}-{row['as_closed_high']:.2f})",
-            f"{row['as_closed_severals']}/{row['as_closed_several_n']}",
-            "-" if row["miss_q_min"] is None else f"{row['miss_q_min']:.2f}",
-        )
-        for row in suite["tables"]["hit_rates"]
-    ]
-    header = (
-        "open rule",
-        "d/d2 < 0.8",
-        "over cells",
-        "closed rule",
-        "several",
-        "least d/d2 missed",
-    )
-    print_table(("tissue, veins", "transport", *header), answers)
-    missed = [row for row in suite["tables"]["figure"] if not row["is_hit"]]
-    for row in missed:
-        typer.echo(
-            f"not where two veins are given: {row['tissue']}, {row['protocol']}, {row['case']}"
-            f" (d/d2 = {row['q']:.2f})"
-        )
-    typer.echo(
-        "open rule: the nearest vein; closed rule: the veins of all relative neighbours,"
-        " which may be\nseveral; d/d2: distance of the nearest vein over that of the second;"
-        " in brackets: 95 % (Wilson)"
-    )
-
-
 PRINTED: dict[str, Callable[[dict], None]] = {
     "growth": _print_growth,
     "stem": _print_stem,
     "transitions": _print_stem,
-    "canalization": _print_canalization,
 }
-"""How each suite is written for people."""
+"""How the suites without transport are written for people."""

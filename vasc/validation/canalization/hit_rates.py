@@ -7,6 +7,7 @@ the closed rule predicts the set of veins that canals reach.
 
 from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
+from math import sqrt
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,10 @@ from vasc.validation.canalization.settled import settle
 
 CLEAR = 0.8
 """Below that ratio of the distances of the nearest and the second vein, no near-tie."""
+EXACT = {"rectangular": sqrt(0.5), "hexagonal": sqrt(0.75), "voronoi": CLEAR}
+"""The ratio below which the nearest vein by Euclid is the nearest over cells, too: ways over
+square cells are up to sqrt(2) times the straight line, over hexagons up to 2/sqrt(3) times;
+for Voronoi cells there is no bound, and the number is ours."""
 
 
 @dataclass(frozen=True)
@@ -159,7 +164,8 @@ def hit_rates(
         progress(f"{tissue} {scenario}, {protocol}")
         found = outcomes(tissue, scenario, PROTOCOLS[protocol], seeds, tolerance)
         names = {"tissue": tissue, "scenario": scenario, "protocol": protocol}
-        rows.append(names | summary(found))
+        exact = [one.is_hit for one in found if one.q < EXACT[tissue]]
+        rows.append(names | summary(found) | _rate("hit_exact", exact))
     return rows
 
 
