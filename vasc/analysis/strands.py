@@ -167,15 +167,12 @@ def read_strand(
     group that a source feeds need not get most. The width is that of all flux in rings of
     cells around the source, and means little where other sources are near.
     """
-    member = np.full(tissue.n_cells, NULL, dtype=np.int32)
-    for number, cells in enumerate(groups):
-        member[cells] = number
+    member = _members(tissue.n_cells, groups)
     is_vein = fields.roles == Role.VEIN
     inflow = kernels.transport.arrivals(tissue.walls, fields.flux, tissue.n_cells)
     inflow[~is_vein] = 0.0
     total = float(inflow.sum())
-    of_groups = np.array([inflow[cells].sum() for cells in groups])
-    shares = of_groups / total if total > 0.0 else np.zeros(len(groups))
+    shares = np.array([inflow[cells].sum() for cells in groups]) / max(total, 1e-300)
 
     path, _, is_loop = kernels.trunks.trunk(tissue.walls, fields.flux, source_cell, is_vein)
     end = int(path[-1])
@@ -209,6 +206,14 @@ def read_strand(
         ),
         ways,
     )
+
+
+def _members(n_cells: int, groups: Sequence[Ids]) -> Ids:
+    """Give the group of each cell, -1 for none, shape (n,)."""
+    member = np.full(n_cells, NULL, dtype=np.int32)
+    for number, cells in enumerate(groups):
+        member[cells] = number
+    return member
 
 
 def _measured(tissue: Tissue, flux: Floats, strand: Strand, ways: Floats) -> Strand:

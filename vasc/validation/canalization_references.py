@@ -70,7 +70,8 @@ HIT_RATES = tuple(
 """Measured on about 570 cells with the default values of the models, n = 60."""
 
 CLEAR_HITS = (451, 451)
-"""Hits of facilitated diffusion, and scenarios, where the nearest vein is clearly nearer."""
+"""Hits of facilitated diffusion, and scenarios, with the nearest vein nearer than 0.8 of the
+distance of the second. Of 1441 more there were 1436 hits, all misses in square cells."""
 
 WIDTH_DIFFUSE, WIDTH_FORMED = 25.0, 1.1
 """Measured on 25 x 25 cells, source 10 cells from the vein, saturation = gain: width at a gain

@@ -1,4 +1,4 @@
-"""Experiment 3: does a canal in an areole end where the closed rule says?
+"""Experiment 3: where a canal in an areole ends, and where the closed rule says.
 
 Hypothesis H2: the closed rule, which lets a source attract all its relative neighbours,
 predicts the set of places where the canals of one source end (Runions 2008, equation 4.1).

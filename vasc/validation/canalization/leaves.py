@@ -2,11 +2,13 @@
 
 from vasc.domain import Tissue
 from vasc.domain.parameters import BladeParameters
+from vasc.domain.shapes import ShapeName
 from vasc.domain.voronoi import voronoi_in
 from vasc.streams import Streams
 
-SHAPE, LENGTH = "ovate", 45.4
-"""About 911 cells."""
+SHAPE: ShapeName = "ovate"
+LENGTH = 45.4
+"""In D: about 911 cells."""
 
 
 def leaf(seed: int) -> tuple[Tissue, int]:

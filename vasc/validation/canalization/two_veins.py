@@ -20,6 +20,7 @@ from vasc.models.transport import (
     Transport,
 )
 from vasc.streams import Streams
+from vasc.validation.canalization.geometric import ratio_to_second
 from vasc.validation.canalization.protocols import Protocol
 from vasc.validation.canalization.rates import wilson
 from vasc.validation.canalization.scenarios import CLEARANCE, TISSUES, apart
@@ -87,6 +88,39 @@ def settled_case(
     return settle(
         cells, protocol.transport, veins, [source], protocol.background, tolerance=tolerance
     )
+
+
+def figure_rows(progress: Callable[[str], None] = lambda name: None) -> list[dict[str, Any]]:
+    """Give a row for each tissue, protocol and case of the figure and beyond it.
+
+    ``is_asked`` is whether the canal has to end at the nearest vein: in all cases by
+    facilitated diffusion, between equal veins by polar transport.
+    """
+    rows = []
+    for tissue in TISSUES:
+        for protocol in FIGURE_PROTOCOLS:
+            progress(f"Figure 4.9, {tissue}, {protocol.name}")
+            for case in CASES:
+                settled = settled_case(case, tissue, protocol)
+                strand = settled.strand
+                are_equal = case.veins != LINE_AND_POINT
+                rows.append(
+                    {
+                        "tissue": tissue,
+                        "protocol": protocol.name,
+                        "case": case.name,
+                        "q": ratio_to_second(strand.distances),
+                        "nearest": case.nearest,
+                        "nearest_by_cells": int(strand.ways.argmin()),
+                        "reached": strand.reached,
+                        "share": float(strand.shares[case.nearest]),
+                        "formed": strand.is_formed,
+                        "is_hit": strand.reached == case.nearest,
+                        "is_figure": case.veins == FIGURE_VEINS,
+                        "is_asked": are_equal or not protocol.transport.is_polar,
+                    }
+                )
+    return rows
 
 
 SCANNED: dict[str, Transport] = {
