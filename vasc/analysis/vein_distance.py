@@ -1,0 +1,136 @@
+"""How far tissue lies from the nearest vein, and how veins fill the plane."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from vasc.analysis.sections import Sections
+from vasc.arrays import Floats, Points
+
+if TYPE_CHECKING:
+    import shapely
+
+N_PLACES = 30_000
+"""Places in the box around a region at which the distance is taken."""
+FINEST, COARSEST = 7, 3
+"""Boxes are L/8, L/16, ... L/128 wide, with L the longer side of the network."""
+
+
+def enclosed_region(sections: Sections) -> "shapely.Geometry":
+    """Give the region that veins enclose: all areoles together.
+
+    Parameters
+    ----------
+    sections : Sections
+        The veins of a network.
+
+    Returns
+    -------
+    shapely.Geometry
+        Empty if there is no areole.
+    """
+    import shapely
+
+    is_looped = sections.is_looped[sections.owners]
+    lines = sections.drawing.points[sections.drawing.segments[sections.rows[is_looped]]]
+    faces = shapely.get_parts(shapely.polygonize(shapely.linestrings(lines)))
+    return shapely.coverage_union_all(faces)
+
+
+def places_in(region: "shapely.Geometry", n_places: int = N_PLACES) -> Points:
+    """Spread places evenly over a region, always the same ones.
+
+    Parameters
+    ----------
+    region : shapely.Geometry
+        Any region.
+    n_places : int
+        Places in the box around it; those outside the region are left out.
+
+    Returns
+    -------
+    ndarray of shape (k, 2), float64
+        Empty for an empty region.
+
+    Notes
+    -----
+    The additive recurrence by powers of 1/g, with g^3 = g + 1 (Roberts, 2018, "The
+    unreasonable effectiveness of quasirandom sequences"): more even than chance.
+    """
+    import shapely
+
+    if region.is_empty or region.area == 0.0:
+        return np.zeros((0, 2))
+    left, bottom, right, top = region.bounds
+    plastic = 1.324717957244746
+    shares = np.arange(1, n_places + 1)[:, None] * [1.0 / plastic, 1.0 / plastic**2] % 1.0
+    places = np.array([left, bottom]) + shares * [right - left, top - bottom]
+    shapely.prepare(region)
+    inside: Points = places[shapely.contains_xy(region, places)]
+    return inside
+
+
+def distances_to_vein(sections: Sections, places: Points) -> Floats:
+    """Give the distance from places to the nearest vein.
+
+    Parameters
+    ----------
+    sections : Sections
+        The veins of a network.
+    places : ndarray of shape (k, 2), float64
+        Places in the tissue.
+
+    Returns
+    -------
+    ndarray of shape (k,), float64
+        To the middle line of the vein; empty without veins.
+    """
+    import shapely
+
+    drawing = sections.drawing
+    if not len(drawing.segments) or not len(places):
+        return np.zeros(0)
+    tree = shapely.STRtree(shapely.linestrings(drawing.points[drawing.segments]))
+    found = tree.query_nearest(shapely.points(places), return_distance=True, all_matches=False)
+    distances: Floats = found[1]
+    return distances
+
+
+def box_dimension(sections: Sections) -> float:
+    """Give the box-counting dimension between L/8 and L/128.
+
+    Parameters
+    ----------
+    sections : Sections
+        The veins of a network.
+
+    Returns
+    -------
+    float
+        Slope of log(boxes that hold a vein) against log(1 / side), fitted by least
+        squares; nan without veins. Boxes stand on the lower left corner of the
+        network, so that turning it changes the number a little.
+    """
+    points, segments = sections.drawing.points, sections.drawing.segments
+    if not len(segments):
+        return float("nan")
+    used = points[segments]
+    corner = used.reshape(-1, 2).min(axis=0)
+    side = float(np.ptp(used.reshape(-1, 2), axis=0).max())
+    # places along each segment, closer than an eighth of the smallest box
+    steps = used[:, 1] - used[:, 0]
+    n_steps = np.ceil(np.sqrt((steps**2).sum(axis=1)) / side * 8.0 * 2**FINEST).astype(np.int64)
+    n_steps = np.maximum(n_steps, 1)
+    rows = np.repeat(np.arange(len(segments)), n_steps + 1)
+    first = np.cumsum(n_steps + 1) - (n_steps + 1)
+    shares = (np.arange(len(rows)) - first[rows]) / n_steps[rows]
+    places = (used[rows, 0] + shares[:, None] * steps[rows] - corner) / side
+    powers = np.arange(COARSEST, FINEST + 1)
+    counts = [_boxes(places, 2**power) for power in powers.tolist()]
+    return float(np.polyfit(powers * np.log(2.0), np.log(counts), 1)[0])
+
+
+def _boxes(places: Points, n_across: int) -> int:
+    """Count the boxes that hold one of the places, which lie in the unit square."""
+    cells = np.minimum((places * n_across).astype(np.int64), n_across - 1)
+    return len(np.unique(cells[:, 0] * n_across + cells[:, 1]))
