@@ -146,11 +146,12 @@ def areoles_of(looped: LoopedVeins | None, drawing: Drawing) -> Areoles:
         areas[face] -= area
     vectors = drawing.points[walks.ends] - drawing.points[walks.starts]
     lengths = np.where(looped.is_border, np.sqrt((vectors**2).sum(axis=1)), 0.0)
-    perimeters = np.bincount(walks.faces, lengths, minlength=n_faces)
+    perimeters: Floats = np.bincount(walks.faces, lengths, minlength=n_faces)
     corners = np.bincount(walks.faces[looped.degrees[walks.starts] >= 3], minlength=n_faces)
     is_inside = ~walks.is_outside
     elongations = _elongations(drawing, walks)
-    return Areoles(*(each[is_inside] for each in (areas, perimeters, elongations, corners)))
+    of_all = (areas, perimeters, elongations)
+    return Areoles(*(values[is_inside] for values in of_all), corners=corners[is_inside])
 
 
 def _elongations(drawing: Drawing, walks: FaceWalks) -> Floats:

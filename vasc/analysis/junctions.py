@@ -26,14 +26,14 @@ class Junctions:
         Widths of the veins where they leave, falling along each row.
     directions : ndarray of shape (j, 3, 2), float64
         Unit vectors along which they leave.
-    chords : ndarray of shape (j, 3), float64
-        Straight distances to the points the directions are taken to.
+    spans : ndarray of shape (j, 3), float64
+        Lengths of their sections, as drawn.
     """
 
     points: NDArray[np.int64]
     widths: Floats
     directions: Points
-    chords: Floats
+    spans: Floats
 
     @property
     def n_junctions(self) -> int:
@@ -59,12 +59,12 @@ class Junctions:
 
     def chosen(self, rows: NDArray) -> "Junctions":
         """Give the junctions of some rows."""
-        parts = (self.points, self.widths, self.directions, self.chords)
+        parts = (self.points, self.widths, self.directions, self.spans)
         return Junctions(*(part[rows] for part in parts))
 
     def long(self, shortest: float) -> "Junctions":
-        """Give the junctions whose veins are all drawn longer than a length."""
-        return self.chosen((self.chords > shortest).all(axis=1))
+        """Give the junctions whose sections are all drawn longer than a length."""
+        return self.chosen(np.flatnonzero(self.spans.min(axis=1, initial=np.inf) > shortest))
 
     def shuffled_residuals(self, seed: int = 0) -> Floats:
         """Give the force residuals with the widths of each junction shuffled, shape (j,).
@@ -105,7 +105,7 @@ def find_junctions(sections: Sections) -> Junctions:
         at[order[:, 0]],
         sections.end_widths.ravel()[order],
         vectors[order] / chords[order][..., None],
-        chords[order],
+        sections.spans[order // 2],
     )
 
 

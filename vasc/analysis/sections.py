@@ -18,7 +18,7 @@ SHORT = 0.4
 
 @dataclass(frozen=True)
 class Sections:
-    """The veins of a network as they are drawn, cut at junctions and free ends.
+    """The veins of a network as they are drawn, cut at junctions, free ends and seeds.
 
     Parameters
     ----------
@@ -93,6 +93,12 @@ class Sections:
         return np.bincount(self.ends.ravel(), minlength=len(self.drawing.points))
 
     @cached_property
+    def spans(self) -> Floats:
+        """Lengths of the sections as they are drawn, shape (k,)."""
+        steps = np.diff(self.drawing.points[self.points_walked], axis=1)[:, 0]
+        return self.sums(np.sqrt((steps**2).sum(axis=1)))
+
+    @cached_property
     def reach(self) -> float:
         """How far from a junction the direction of a section is taken; 0 without any."""
         return SHORT * float(self.lengths.mean()) if self.n_sections else 0.0
@@ -103,14 +109,40 @@ class Sections:
         is_left = np.ones(self.n_sections, dtype=bool)
         while True:
             degrees = np.bincount(self.ends[is_left].ravel(), minlength=len(self.drawing.points))
-            is_end = is_left & (degrees[self.ends] == 1).any(axis=1)
-            if not is_end.any():
-                return is_left
-            is_left &= ~is_end
+            is_kept = is_left & (degrees[self.ends] > 1).all(axis=1)
+            if np.array_equal(is_kept, is_left):
+                return is_kept
+            is_left = is_kept
 
     def sums(self, values: Floats) -> Floats:
         """Add up values of segments, in the order walked, over each section."""
-        return np.bincount(self.owners, values, minlength=self.n_sections)
+        summed: Floats = np.bincount(self.owners, values, minlength=self.n_sections)
+        return summed
+
+    def lines(self, n_segments: int | None = None) -> "NDArray[np.object_]":
+        """Give the sections as lines for shapely, cut after some segments if asked to.
+
+        Parameters
+        ----------
+        n_segments : int, optional
+            Segments in a line at most.
+
+        Returns
+        -------
+        ndarray of shape (l,), object
+            Lines, section by section.
+        """
+        import shapely
+
+        within = np.arange(len(self.walked)) - self.begins[self.owners]
+        is_first = within % (n_segments or max(len(within), 1)) == 0
+        rows = np.cumsum(is_first) - 1
+        # every line begins with a point of its own, and each half-edge adds its end
+        begin = np.flatnonzero(is_first)
+        order = np.argsort(np.concatenate([rows, rows[begin] - 0.5]), kind="stable")
+        points = np.concatenate([self.points_walked[:, 1], self.points_walked[begin, 0]])[order]
+        of_lines = np.concatenate([rows, rows[begin]])[order]
+        return shapely.linestrings(self.drawing.points[points], indices=of_lines)
 
     def leaving(self) -> Points:
         """Give vectors from the two ends of each section to a point on its way.
@@ -166,14 +198,17 @@ def find_sections(
         drawn = drawn * lengths[origins] / network.lengths[origins]
     segments = np.ascontiguousarray(drawing.segments, dtype=np.int32).reshape(-1, 2)
     firsts, leaving = kernels.sections.incidences(segments, len(drawing.points))
-    walked, begins = kernels.sections.walk_sections(segments, firsts, leaving)
+    seeds = _seed_points(network, drawing)
+    is_stop = np.diff(firsts) != 2
+    is_stop[seeds] = True
+    walked, begins = kernels.sections.walk_sections(segments, firsts, leaving, is_stop)
     return Sections(
         Drawing(drawing.points, segments),
         drawn,
         all_widths[origins],
         walked,
         begins,
-        _seed_points(network, drawing),
+        seeds,
     )
 
 

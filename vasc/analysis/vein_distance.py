@@ -10,6 +10,8 @@ from vasc.arrays import Floats, Points
 if TYPE_CHECKING:
     import shapely
 
+LINE = 8
+"""Segments in a line of the search tree: fewer lines, with small boxes still."""
 N_PLACES = 30_000
 """Places in the box around a region at which the distance is taken."""
 FINEST, COARSEST = 7, 3
@@ -31,9 +33,7 @@ def enclosed_region(sections: Sections) -> "shapely.Geometry":
     """
     import shapely
 
-    is_looped = sections.is_looped[sections.owners]
-    lines = sections.drawing.points[sections.drawing.segments[sections.rows[is_looped]]]
-    faces = shapely.get_parts(shapely.polygonize(shapely.linestrings(lines)))
+    faces = shapely.get_parts(shapely.polygonize(sections.lines()[sections.is_looped]))
     return shapely.coverage_union_all(faces)
 
 
@@ -87,10 +87,9 @@ def distances_to_vein(sections: Sections, places: Points) -> Floats:
     """
     import shapely
 
-    drawing = sections.drawing
-    if not len(drawing.segments) or not len(places):
+    if not sections.n_sections or not len(places):
         return np.zeros(0)
-    tree = shapely.STRtree(shapely.linestrings(drawing.points[drawing.segments]))
+    tree = shapely.STRtree(sections.lines(LINE))
     found = tree.query_nearest(shapely.points(places), return_distance=True, all_matches=False)
     distances: Floats = found[1]
     return distances

@@ -39,6 +39,7 @@ def _walk(
     segments: Ids,
     firsts: NDArray[np.int64],
     leaving: NDArray[np.int64],
+    is_stop: NDArray[np.bool_],
     half_edge: int,
     is_walked: NDArray[np.bool_],
     walked: NDArray[np.int64],
@@ -52,7 +53,7 @@ def _walk(
         walked[n_walked] = half_edge
         n_walked += 1
         point = segments[row, 1 if half_edge < n_segments else 0]
-        if firsts[point + 1] - firsts[point] != 2:
+        if is_stop[point]:
             return n_walked
         half_edge = leaving[firsts[point]]
         if is_walked[half_edge % n_segments]:
@@ -63,7 +64,10 @@ def _walk(
 
 @compiled
 def walk_sections(
-    segments: Ids, firsts: NDArray[np.int64], leaving: NDArray[np.int64]
+    segments: Ids,
+    firsts: NDArray[np.int64],
+    leaving: NDArray[np.int64],
+    is_stop: NDArray[np.bool_],
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Walk along all sections, each segment once.
 
@@ -73,6 +77,8 @@ def walk_sections(
         Rows of the two points of each segment, never the same twice in a row.
     firsts, leaving : ndarray of int64
         What :func:`incidences` gives.
+    is_stop : ndarray of shape (p,), bool
+        Points at which sections end: all that do not have two segments, and others.
 
     Returns
     -------
@@ -87,19 +93,20 @@ def walk_sections(
     begins = np.empty(n_segments + 1, dtype=np.int64)
     n_walked = n_begun = 0
     for point in range(len(firsts) - 1):
-        if firsts[point + 1] - firsts[point] == 2:
+        if not is_stop[point]:
             continue
         for place in range(firsts[point], firsts[point + 1]):
             if not is_walked[leaving[place] % n_segments]:
                 begins[n_begun] = n_walked
                 n_begun += 1
+                start = leaving[place]
                 n_walked = _walk(
-                    segments, firsts, leaving, leaving[place], is_walked, walked, n_walked
+                    segments, firsts, leaving, is_stop, start, is_walked, walked, n_walked
                 )
     for row in range(n_segments):
         if not is_walked[row]:
             begins[n_begun] = n_walked
             n_begun += 1
-            n_walked = _walk(segments, firsts, leaving, row, is_walked, walked, n_walked)
+            n_walked = _walk(segments, firsts, leaving, is_stop, row, is_walked, walked, n_walked)
     begins[n_begun] = n_walked
     return walked, begins[: n_begun + 1].copy()
