@@ -146,12 +146,12 @@ def areoles_of(looped: LoopedVeins | None, drawing: Drawing) -> Areoles:
         areas[face] -= area
     vectors = drawing.points[walks.ends] - drawing.points[walks.starts]
     lengths = np.where(looped.is_border, np.sqrt((vectors**2).sum(axis=1)), 0.0)
-    perimeters: Floats = np.bincount(walks.faces, lengths, minlength=n_faces)
+    perimeters = np.bincount(walks.faces, lengths, minlength=n_faces).astype(np.float64)
     corners = np.bincount(walks.faces[looped.degrees[walks.starts] >= 3], minlength=n_faces)
     is_inside = ~walks.is_outside
-    elongations = _elongations(drawing, walks)
-    of_all = (areas, perimeters, elongations)
-    return Areoles(*(values[is_inside] for values in of_all), corners=corners[is_inside])
+    of_faces: list[Floats] = [areas, perimeters, _elongations(drawing, walks)]
+    measured = [values[is_inside] for values in of_faces]
+    return Areoles(measured[0], measured[1], measured[2], corners[is_inside])
 
 
 def _elongations(drawing: Drawing, walks: FaceWalks) -> Floats:

@@ -27,8 +27,7 @@ class Axes:
 
     def sums(self, values: Floats) -> Floats:
         """Add up values of sections over each axis."""
-        summed: Floats = np.bincount(self.of_sections, values, minlength=self.n_axes)
-        return summed
+        return np.bincount(self.of_sections, values, minlength=self.n_axes).astype(np.float64)
 
 
 def find_axes(sections: Sections) -> Axes:

@@ -116,8 +116,7 @@ class Sections:
 
     def sums(self, values: Floats) -> Floats:
         """Add up values of segments, in the order walked, over each section."""
-        summed: Floats = np.bincount(self.owners, values, minlength=self.n_sections)
-        return summed
+        return np.bincount(self.owners, values, minlength=self.n_sections).astype(np.float64)
 
     def lines(self, n_segments: int | None = None) -> "NDArray[np.object_]":
         """Give the sections as lines for shapely, cut after some segments if asked to.

@@ -1,6 +1,6 @@
 """Vein orders as botanists assign them: by width and continuity (Hickey 1973)."""
 
-from heapq import heappop, heappush
+from heapq import heapify, heappop, heappush
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +18,9 @@ def vein_orders(sections: Sections) -> Ids:
 
     An axis is one vein from end to end, through every fork. The widest axis at the
     base is of first order. An axis springs from the one that it meets with its
-    widest end. It is of the same order if it is about as wide there as the
-    veins of that order at their origin, as the main veins of a palmate leaf and the
-    meshes of the finest; thinner by a quarter or more, it is of the next order.
+    widest end. It is of the same order if its mean width is about that of the axis
+    with which this order began there, as in the main veins of a palmate leaf and the
+    meshes of the finest; thinner by more than a quarter, it is of the next order.
     Last, an axis that is thinner than is typical of a later order belongs there, so
     that a veinlet on the midvein is no secondary vein.
 
@@ -37,15 +37,15 @@ def vein_orders(sections: Sections) -> Ids:
     Notes
     -----
     Hickey (1973, American Journal of Botany 60:17) and Ellis et al. (2009, Manual of
-    Leaf Architecture) tell orders by the width at the origin relative to the vein
-    of origin, and by the course. They judge by eye: the quarter is our number.
+    Leaf Architecture) tell orders by the width relative to the vein of origin, and
+    by the course. They judge by eye: the quarter is our number.
     """
     axes = find_axes(sections)
     if not axes.n_axes:
         return np.zeros(0, dtype=np.int32)
-    orders, origins = _spread(sections, axes)
     lengths = axes.sums(sections.lengths)
-    orders = _by_typical_width(orders, origins, lengths)
+    widths = axes.sums(sections.lengths * sections.widths) / lengths
+    orders = _by_typical_width(_spread(sections, axes, widths), widths, lengths)
     return orders[axes.of_sections].astype(np.int32)
 
 
@@ -84,36 +84,33 @@ def base_points(sections: Sections, axes: Axes) -> NDArray[np.int64]:
     return np.union1d(ends[order[is_first]], ends[is_seed])
 
 
-def _spread(sections: Sections, axes: Axes) -> tuple[NDArray[np.int64], Floats]:
-    """Give orders and widths at the origin of all axes, from the base on, widest first."""
+def _spread(sections: Sections, axes: Axes, of_axes: Floats) -> NDArray[np.int64]:
+    """Give orders to all axes from their widths, from the base on, widest ends first."""
     owner = np.repeat(axes.of_sections, 2)
     points, widths = sections.ends.ravel(), sections.end_widths.ravel()
     by_point, by_axis = _lists(points, len(sections.drawing.points)), _lists(owner, axes.n_axes)
-    orders, origins = np.zeros(axes.n_axes, dtype=np.int64), np.zeros(axes.n_axes)
-    typical = np.zeros(axes.n_axes)
+    orders = np.zeros(axes.n_axes, dtype=np.int64)
+    typical = of_axes.copy()
     heap: list[tuple[float, int, int, int]] = []
     for point in base_points(sections, axes).tolist():
         ends = by_point(point)
-        widest = float(widths[ends].max())
-        for end in ends:
-            # palmate: main veins of about the same width leave the base together
-            is_main = widths[end] >= THINNER * widest
-            heappush(heap, (-float(widths[end]), end, 1 if is_main else 2, -1))
+        first = int(owner[max(ends, key=lambda end: (of_axes[owner[end]], -end))])
+        # palmate: main veins of about the same width leave the base together
+        heap += [(-float(widths[end]), end, 1, first) for end in ends]
+    heapify(heap)
     while heap:
-        negative, end, order, parent = heappop(heap)
+        _, end, order, parent = heappop(heap)
         axis = int(owner[end])
         if orders[axis]:
             continue
-        orders[axis], origins[axis] = order, -negative
-        is_same = parent >= 0 and orders[parent] == order
-        typical[axis] = typical[parent] if is_same else -negative
+        is_thinner = bool(of_axes[axis] < THINNER * typical[parent])
+        orders[axis] = order + is_thinner
+        typical[axis] = of_axes[axis] if is_thinner else typical[parent]
         for point in {int(points[own]) for own in by_axis(axis)}:
             for other in by_point(point):
                 if not orders[owner[other]]:
-                    width = float(widths[other])
-                    later = order + (width < THINNER * typical[axis])
-                    heappush(heap, (-width, other, later, axis))
-    return orders, origins
+                    heappush(heap, (-float(widths[other]), other, int(orders[axis]), axis))
+    return orders
 
 
 def _lists(keys: NDArray[np.int64], n_keys: int):  # type: ignore[no-untyped-def]
@@ -124,18 +121,17 @@ def _lists(keys: NDArray[np.int64], n_keys: int):  # type: ignore[no-untyped-def
 
 
 def _by_typical_width(
-    orders: NDArray[np.int64], origins: Floats, lengths: Floats
+    orders: NDArray[np.int64], widths: Floats, lengths: Floats
 ) -> NDArray[np.int64]:
-    """Move axes on to the last order whose typical width they do not reach the one before."""
+    """Move axes on to the last order whose typical width is at least theirs."""
     typical = []
     for order in range(1, int(orders.max()) + 1):
         rows = np.flatnonzero(orders == order)
         if not len(rows):
             break
-        by_width = rows[np.argsort(origins[rows], kind="stable")]
+        by_width = rows[np.argsort(widths[rows], kind="stable")]
         share = np.cumsum(lengths[by_width])
-        typical.append(origins[by_width[np.searchsorted(share, share[-1] / 2.0)]])
-    # how many orders are typically wider than each axis
+        typical.append(widths[by_width[np.searchsorted(share, share[-1] / 2.0)]])
     levels = np.minimum.accumulate(typical)
-    n_wider = np.searchsorted(-levels, -origins, side="left")
-    return np.where(orders > 1, np.maximum(orders, np.minimum(n_wider, len(levels))), orders)
+    n_wider = np.searchsorted(-levels, -widths, side="right")
+    return np.where(orders > 1, np.maximum(orders, n_wider), orders)
