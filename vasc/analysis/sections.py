@@ -118,29 +118,16 @@ class Sections:
         """Add up values of segments, in the order walked, over each section."""
         return np.bincount(self.owners, values, minlength=self.n_sections).astype(np.float64)
 
-    def lines(self, n_segments: int | None = None) -> "NDArray[np.object_]":
-        """Give the sections as lines for shapely, cut after some segments if asked to.
-
-        Parameters
-        ----------
-        n_segments : int, optional
-            Segments in a line at most.
-
-        Returns
-        -------
-        ndarray of shape (l,), object
-            Lines, section by section.
-        """
+    def lines(self) -> "NDArray[np.object_]":
+        """Give the sections as lines for shapely, shape (k,), object."""
         import shapely
 
-        within = np.arange(len(self.walked)) - self.begins[self.owners]
-        is_first = within % (n_segments or max(len(within), 1)) == 0
-        rows = np.cumsum(is_first) - 1
         # every line begins with a point of its own, and each half-edge adds its end
-        begin = np.flatnonzero(is_first)
-        order = np.argsort(np.concatenate([rows, rows[begin] - 0.5]), kind="stable")
+        begin = self.begins[:-1]
+        rows = np.concatenate([self.owners, np.arange(self.n_sections) - 0.5])
+        order = np.argsort(rows, kind="stable")
         points = np.concatenate([self.points_walked[:, 1], self.points_walked[begin, 0]])[order]
-        of_lines = np.concatenate([rows, rows[begin]])[order]
+        of_lines = np.ceil(rows[order]).astype(np.int64)
         return shapely.linestrings(self.drawing.points[points], indices=of_lines)
 
     def leaving(self) -> Points:

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vasc.analysis.sections import Sections
 from vasc.arrays import Floats, Points
@@ -10,10 +11,10 @@ from vasc.arrays import Floats, Points
 if TYPE_CHECKING:
     import shapely
 
-LINE = 8
-"""Segments in a line of the search tree: fewer lines, with small boxes still."""
-N_PLACES = 30_000
+N_PLACES = 100_000
 """Places in the box around a region at which the distance is taken."""
+N_NEAR = 8
+"""Samples of veins around a place whose segments are looked at."""
 FINEST, COARSEST = 7, 3
 """Boxes are L/8, L/16, ... L/128 wide, with L the longer side of the network."""
 
@@ -83,16 +84,52 @@ def distances_to_vein(sections: Sections, places: Points) -> Floats:
     Returns
     -------
     ndarray of shape (k,), float64
-        To the middle line of the vein; empty without veins.
+        To the middle line of the vein; empty without veins. The nearest segment is one
+        of those with a sample among the eight nearest, samples being a fifth of a mean
+        section apart: a place that has nearer ones is off by less than a tenth of that.
     """
-    import shapely
-
-    if not sections.n_sections or not len(places):
+    points, segments = sections.drawing.points, sections.drawing.segments
+    if not len(segments) or not len(places):
         return np.zeros(0)
-    tree = shapely.STRtree(sections.lines(LINE))
-    found = tree.query_nearest(shapely.points(places), return_distance=True, all_matches=False)
-    distances: Floats = found[1]
-    return distances
+    from scipy.spatial import KDTree
+
+    ends = points[segments]
+    samples, rows = places_along(ends, sections.reach / 2.0)
+    n_near = min(N_NEAR, len(samples))
+    near = KDTree(samples).query(places, n_near)[1].reshape(len(places), n_near)
+    # exact for the segments that have one of the nearest samples
+    best = np.full(len(places), np.inf)
+    for column in near.T:
+        start, stop = ends[rows[column]].transpose(1, 0, 2)
+        step, off = stop - start, places - start
+        share = (off * step).sum(axis=1) / (step * step).sum(axis=1)
+        rest = off - np.clip(share, 0.0, 1.0)[:, None] * step
+        np.minimum(best, (rest * rest).sum(axis=1), out=best)
+    return np.sqrt(best)
+
+
+def places_along(ends: Points, spacing: float) -> tuple[Points, NDArray[np.int64]]:
+    """Give places along segments, their ends among them.
+
+    Parameters
+    ----------
+    ends : ndarray of shape (q, 2, 2), float64
+        Ends of the segments.
+    spacing : float
+        Between the places of a segment at most, above 0.
+
+    Returns
+    -------
+    tuple of ndarray
+        The places, shape (k, 2), and the row of the segment of each, shape (k,).
+    """
+    steps = ends[:, 1] - ends[:, 0]
+    n_steps = np.ceil(np.sqrt((steps**2).sum(axis=1)) / spacing).astype(np.int64)
+    n_steps = np.maximum(n_steps, 1)
+    rows = np.repeat(np.arange(len(ends)), n_steps + 1)
+    first = np.cumsum(n_steps + 1) - (n_steps + 1)
+    shares = (np.arange(len(rows)) - first[rows]) / n_steps[rows]
+    return ends[rows, 0] + shares[:, None] * steps[rows], rows
 
 
 def box_dimension(sections: Sections) -> float:
@@ -116,14 +153,9 @@ def box_dimension(sections: Sections) -> float:
     used = points[segments]
     corner = used.reshape(-1, 2).min(axis=0)
     side = float(np.ptp(used.reshape(-1, 2), axis=0).max())
-    # places along each segment, closer than an eighth of the smallest box
-    steps = used[:, 1] - used[:, 0]
-    n_steps = np.ceil(np.sqrt((steps**2).sum(axis=1)) / side * 8.0 * 2**FINEST).astype(np.int64)
-    n_steps = np.maximum(n_steps, 1)
-    rows = np.repeat(np.arange(len(segments)), n_steps + 1)
-    first = np.cumsum(n_steps + 1) - (n_steps + 1)
-    shares = (np.arange(len(rows)) - first[rows]) / n_steps[rows]
-    places = (used[rows, 0] + shares[:, None] * steps[rows] - corner) / side
+    # closer than an eighth of the smallest box
+    along = places_along(used, side / 8.0 / 2**FINEST)[0]
+    places = (along - corner) / side
     powers = np.arange(COARSEST, FINEST + 1)
     counts = [_boxes(places, 2**power) for power in powers.tolist()]
     return float(np.polyfit(powers * np.log(2.0), np.log(counts), 1)[0])
