@@ -84,9 +84,8 @@ def distances_to_vein(sections: Sections, places: Points) -> Floats:
     Returns
     -------
     ndarray of shape (k,), float64
-        To the middle line of the vein; empty without veins. The nearest segment is one
-        of those with a sample among the eight nearest, samples being a fifth of a mean
-        section apart: a place that has nearer ones is off by less than a tenth of that.
+        To the middle line of the vein; empty without veins. Looked at are the
+        segments with one of the eight nearest samples, a fifth of a mean section apart.
     """
     points, segments = sections.drawing.points, sections.drawing.segments
     if not len(segments) or not len(places):
