@@ -20,8 +20,8 @@ class Areoles:
     areas : ndarray of shape (k,), float64
         Their areas, in the square of the unit of length.
     perimeters : ndarray of shape (k,), float64
-        Lengths around them; a vein with the same areole on both sides, as one that
-        ends in it, is not counted.
+        Lengths around them and around networks within; a vein with the same areole on
+        both sides, as one that ends in it, is not counted.
     elongations : ndarray of shape (k,), float64
         Ratio of the axes of the ellipse with the same second moments, from 1.
     corners : ndarray of shape (k,), int64
@@ -141,32 +141,35 @@ def areoles_of(looped: LoopedVeins | None, drawing: Drawing) -> Areoles:
         return Areoles(np.zeros(0), np.zeros(0), np.zeros(0), np.zeros(0, dtype=np.int64))
     walks = looped.walks
     n_faces = len(walks.areas)
-    areas = walks.areas.copy()
-    for face, area in _islands(drawing, walks):
-        areas[face] -= area
+    faces, areas = walks.faces.astype(np.int64), walks.areas.copy()
+    for face, outside in _islands(drawing, walks):
+        # what goes around an island goes around a hole of the areole
+        areas[face] += areas[outside]
+        faces[walks.faces == outside] = face
     vectors = drawing.points[walks.ends] - drawing.points[walks.starts]
     lengths = np.where(looped.is_border, np.sqrt((vectors**2).sum(axis=1)), 0.0)
-    perimeters = np.bincount(walks.faces, lengths, minlength=n_faces).astype(np.float64)
+    perimeters = np.bincount(faces, lengths, minlength=n_faces).astype(np.float64)
     corners = np.bincount(walks.faces[looped.degrees[walks.starts] >= 3], minlength=n_faces)
     is_inside = ~walks.is_outside
-    of_faces: list[Floats] = [areas, perimeters, _elongations(drawing, walks)]
+    of_faces: list[Floats] = [areas, perimeters, _elongations(drawing, walks, faces, areas)]
     measured = [values[is_inside] for values in of_faces]
     return Areoles(measured[0], measured[1], measured[2], corners[is_inside])
 
 
-def _elongations(drawing: Drawing, walks: FaceWalks) -> Floats:
+def _elongations(
+    drawing: Drawing, walks: FaceWalks, faces: NDArray[np.int64], areas: Floats
+) -> Floats:
     """Give the axis ratios of the faces by second moments, by Green's theorem."""
-    n_faces = len(walks.areas)
-    origins = np.zeros((n_faces, 2))
+    origins = np.zeros((len(areas), 2))
     # from a point of each face, so that far from the origin no digits cancel
-    origins[walks.faces] = drawing.points[walks.starts]
-    x, y = (drawing.points[walks.starts] - origins[walks.faces]).T
-    u, v = (drawing.points[walks.ends] - origins[walks.faces]).T
+    origins[faces] = drawing.points[walks.starts]
+    x, y = (drawing.points[walks.starts] - origins[faces]).T
+    u, v = (drawing.points[walks.ends] - origins[faces]).T
     cross = x * v - u * y
 
     def over_area(values: Floats, factor: float) -> Floats:
-        sums = np.bincount(walks.faces, cross * values, minlength=n_faces)
-        return sums / (factor * np.where(walks.areas != 0.0, walks.areas, np.nan))
+        sums = np.bincount(faces, cross * values, minlength=len(areas))
+        return sums / (factor * np.where(areas != 0.0, areas, np.nan))
 
     center = over_area(x + u, 6.0), over_area(y + v, 6.0)
     xx = over_area(x * x + x * u + u * u, 12.0) - center[0] ** 2
@@ -174,11 +177,13 @@ def _elongations(drawing: Drawing, walks: FaceWalks) -> Floats:
     xy = over_area(x * v + 2.0 * x * y + 2.0 * u * v + u * y, 24.0) - center[0] * center[1]
     middle, half = (xx + yy) / 2.0, np.hypot((xx - yy) / 2.0, xy)
     smaller = np.maximum(middle - half, 1e-30 * middle)
+    # a hole is no face any more
+    smaller = np.where(smaller > 0.0, smaller, np.nan)
     return np.sqrt((middle + half) / smaller)
 
 
-def _islands(drawing: Drawing, walks: FaceWalks) -> list[tuple[int, float]]:
-    """List components with loops that lie in an areole of another: its face, their area."""
+def _islands(drawing: Drawing, walks: FaceWalks) -> list[tuple[int, int]]:
+    """List components with loops that lie in an areole of another: its face, their outside."""
     with_loops = np.unique(walks.components[~walks.is_outside])
     if len(with_loops) < 2:
         return []
@@ -190,7 +195,7 @@ def _islands(drawing: Drawing, walks: FaceWalks) -> list[tuple[int, float]]:
         around = around[walks.components[around] != walks.components[outside]]
         if len(around):
             face = around[np.argmin(walks.areas[around])]
-            found.append((int(face), -float(walks.areas[outside])))
+            found.append((int(face), int(outside)))
     return found
 
 

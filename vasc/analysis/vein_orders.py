@@ -1,5 +1,6 @@
 """Vein orders as botanists assign them: by width and continuity (Hickey 1973)."""
 
+import math
 from heapq import heapify, heappop, heappush
 
 import numpy as np
@@ -94,9 +95,11 @@ def _spread(sections: Sections, axes: Axes, of_axes: Floats) -> NDArray[np.int64
     heap: list[tuple[float, int, int, int]] = []
     for point in base_points(sections, axes).tolist():
         ends = by_point(point)
-        first = int(owner[max(ends, key=lambda end: (of_axes[owner[end]], -end))])
+        widest = max(ends, key=lambda end: (of_axes[owner[end]], -end))
+        first = int(owner[widest])
         # palmate: main veins of about the same width leave the base together
         heap += [(-float(widths[end]), end, 1, first) for end in ends]
+        heap.append((-math.inf, widest, 1, first))
     heapify(heap)
     while heap:
         _, end, order, parent = heappop(heap)
