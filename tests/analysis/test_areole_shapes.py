@@ -1,5 +1,7 @@
 """Shapes of areoles: the half-edge walk held against shapely's polygons."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 import shapely
@@ -17,17 +19,23 @@ seeds = st.integers(0, 2**32 - 1)
 def polygons(net):
     """The areoles as shapely finds them."""
     lines = shapely.linestrings(net.positions[net.segments])
-    return shapely.get_parts(shapely.polygonize(lines)).tolist()
+    return [
+        shapely.geometry.polygon.orient(p) for p in shapely.get_parts(shapely.polygonize(lines))
+    ]
 
 
 def elongation(polygon):
-    """Axis ratio by second moments, summed over triangles of a constrained triangulation."""
+    """Axis ratio by second moments, summed over triangles from one point to all sides."""
     points, weights = [], []
-    for triangle in shapely.constrained_delaunay_triangles(polygon).geoms:
-        a, b, c = shapely.get_coordinates(triangle)[:3]
-        # the middles of the sides integrate squares exactly
-        points += [(a + b) / 2.0, (b + c) / 2.0, (a + c) / 2.0]
-        weights += [triangle.area / 3.0] * 3
+    middle = np.array([polygon.centroid.x, polygon.centroid.y])
+    # rings of shapely's polygons turn one way, holes the other
+    for ring in (polygon.exterior, *polygon.interiors):
+        corners = shapely.get_coordinates(ring)
+        for a, b in pairwise(corners):
+            # the middles of the sides integrate squares exactly
+            points += [(a + b) / 2.0, (b + middle) / 2.0, (a + middle) / 2.0]
+            (x, y), (u, v) = a - middle, b - middle
+            weights += [(x * v - u * y) / 6.0] * 3
     points, weights = np.array(points), np.array(weights)
     off = points - (weights[:, None] * points).sum(axis=0) / weights.sum()
     small, large = np.linalg.eigvalsh(

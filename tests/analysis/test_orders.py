@@ -9,7 +9,7 @@ from reference.networks import grid, network, random_planar, random_tree
 
 from vasc.analysis import find_sections, vein_orders
 from vasc.analysis.axes import find_axes
-from vasc.analysis.strahler import streams
+from vasc.analysis.strahler import stream_orders
 from vasc.analysis.vein_orders import base_points
 
 seeds = st.integers(0, 2**32 - 1)
@@ -116,7 +116,7 @@ def strahler_plain(net):
 class TestStreams:
     @pytest.mark.parametrize("depth", [1, 2, 3, 6])
     def test_a_binary_tree(self, depth):
-        found = streams(find_sections(binary_tree(depth)))
+        found = stream_orders(find_sections(binary_tree(depth)))
         assert found.counts() == {k: 2 ** (depth - k) for k in range(1, depth + 1)}
         if depth > 1:
             assert found.bifurcation_ratio() == pytest.approx(2.0)
@@ -128,7 +128,7 @@ class TestStreams:
     def test_a_comb_has_one_stream_of_second_order(self):
         points = [(0, k) for k in range(6)] + [(1, k + 0.3) for k in range(1, 5)]
         pairs = [(k, k + 1) for k in range(5)] + [(k, k + 5) for k in range(1, 5)]
-        found = streams(find_sections(network(points, pairs)))
+        found = stream_orders(find_sections(network(points, pairs)))
         assert found.counts() == {1: 5, 2: 1}
 
     @given(seeds)
@@ -137,7 +137,7 @@ class TestStreams:
         tree = random_tree(rng, 30)
         # laid out so that nothing crosses: a fan of depth against number of the leaf
         net = network(_laid_out(tree), tree.segments)
-        found = by_segment(net, np.ones(net.n_segments), lambda s: streams(s).orders)
+        found = by_segment(net, np.ones(net.n_segments), lambda s: stream_orders(s).orders)
         expected = strahler_plain(net)
         assert found == [expected[child] for _, child in net.segments.tolist()]
 
@@ -146,7 +146,7 @@ class TestStreams:
         points = [(0, 0), (0, 1), (-1, 2), (1, 2), (0, 3), (0, 4)]
         pairs = [(0, 1), (1, 2), (2, 4), (1, 3), (3, 4), (4, 5)]
         sections = find_sections(network(points, pairs), np.array([5.0, 1, 1, 3, 3, 3]))
-        found = streams(sections)
+        found = stream_orders(sections)
         assert found.is_cut.sum() == 1
         assert sections.widths[found.is_cut] == pytest.approx([1.0])
         # the two halves, and the veinlet at the top
@@ -157,7 +157,7 @@ class TestStreams:
         rng = np.random.default_rng(seed)
         net = without_seeds(random_planar(rng, 30, share))
         sections = find_sections(net, rng.uniform(1.0, 9.0, net.n_segments))
-        found = streams(sections)
+        found = stream_orders(sections)
         # as many sections cut as there are independent cycles
         n_points = (sections.degrees > 0).sum()
         graph_pieces = len(np.unique(_pieces(sections)))

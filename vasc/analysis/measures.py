@@ -12,7 +12,7 @@ from vasc.analysis.junctions import balanced_angles, find_junctions, murray_expo
 from vasc.analysis.loop_hierarchy import borders, loop_hierarchy, shuffled_hierarchies
 from vasc.analysis.sections import Sections
 from vasc.analysis.spanning_tree import mst_ratio
-from vasc.analysis.strahler import streams
+from vasc.analysis.strahler import stream_orders
 from vasc.analysis.vein_distance import (
     box_dimension,
     distances_to_vein,
@@ -137,7 +137,7 @@ class Measured:
     def _order_numbers(self) -> Numbers:
         """Give the numbers of the vein orders and of the stream orders."""
         sections = self.sections
-        orders, counted = vein_orders(sections), streams(sections)
+        orders, counted = vein_orders(sections), stream_orders(sections)
         by_order = {}
         for order in np.unique(orders).tolist():
             rows = np.flatnonzero(orders == order)

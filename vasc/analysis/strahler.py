@@ -12,7 +12,7 @@ from vasc.arrays import NULL, Floats, Ids
 
 
 @dataclass(frozen=True)
-class Streams:
+class StreamOrders:
     """Strahler's orders, and the streams they make.
 
     Parameters
@@ -60,7 +60,7 @@ class Streams:
         return float(np.exp(-slope))
 
 
-def streams(sections: Sections) -> Streams:
+def stream_orders(sections: Sections) -> StreamOrders:
     """Count stream orders along the widest ways to the base.
 
     Parameters
@@ -71,7 +71,7 @@ def streams(sections: Sections) -> Streams:
 
     Returns
     -------
-    Streams
+    StreamOrders
         Empty for a network without veins.
     """
     n_sections = sections.n_sections
@@ -97,7 +97,7 @@ def streams(sections: Sections) -> Streams:
     below[up[points]] = up[parents[points]]
     is_base = (below == NULL) | (orders[below] != orders) | is_cut
     horton = _horton(sections, orders, points, parents, up)
-    return Streams(orders, is_base, is_cut, horton)
+    return StreamOrders(orders, is_base, is_cut, horton)
 
 
 def _widest_tree(
@@ -122,15 +122,14 @@ def _widest_tree(
     graph = coo_array((weights[order], links[order].T), shape=(size + 1, size + 1))
     tree = minimum_spanning_tree(graph)
     visited, before = breadth_first_order(tree, size, directed=False)
-    of_rank = np.empty(sections.n_sections, dtype=np.int64)
-    of_rank[ranks] = np.arange(sections.n_sections)
-    both = (tree + tree.T).tocsr()
     visited = visited[1:].astype(np.int64)
     parents, up = np.full(size, NULL, dtype=np.int64), np.full(size, NULL, dtype=np.int64)
-    found = np.asarray(both[visited, before[visited]]).ravel().astype(np.int64) - 2
-    is_inner = found >= 0
-    parents[visited[is_inner]] = before[visited[is_inner]]
-    up[visited[is_inner]] = of_rank[found[is_inner]]
+    inner = visited[before[visited] != size]
+    parents[inner] = before[inner]
+    # links are sorted by their points, and each is there once
+    keys = links[order, 0] * (size + 1) + links[order, 1]
+    one, other = np.minimum(inner, parents[inner]), np.maximum(inner, parents[inner])
+    up[inner] = order[np.searchsorted(keys, one * (size + 1) + other)]
     return parents, up, visited
 
 
