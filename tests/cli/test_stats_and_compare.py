@@ -120,6 +120,16 @@ class TestCompare:
             ["compare", leaf, DALBERGIA, "--step", "9999"], capsys
         )
 
+    def test_two_stems(self, here, capsys):
+        (here / "stem.toml").write_text(STEM)
+        for name in "ab":
+            assert main(["run", "stem.toml", "-o", f"{name}.h5", "--no-figure", "-q"]) == 0
+        capsys.readouterr()
+        found = json.loads(output(["compare", "a.h5", "b.h5", "--json"], capsys))
+        assert found["statistics"] == []
+        assert found["runs"]["first_difference"] is None
+        assert "the same, bit for bit" in output(["compare", "a.h5", "b.h5"], capsys)
+
     def test_a_stem_has_no_statistics(self, leaf, here, capsys):
         (here / "stem.toml").write_text(STEM)
         assert main(["run", "stem.toml", "--no-figure", "-q", "--steps", "3"]) == 0

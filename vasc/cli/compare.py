@@ -1,6 +1,6 @@
 """``vasc compare``: two runs, or a run and a real leaf, side by side."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -25,19 +25,34 @@ def compare(
 
     files = (one, other)
     is_run = [not is_network_file(path) for path in files]
-    columns = [
-        measured(path, step if runs else -1, seed) for path, runs in zip(files, is_run, strict=True)
-    ]
+    columns = []
+    # stems have no statistics, and may still be compared
+    if not (all(is_run) and are_stems(files)):
+        asked = [step if runs else -1 for runs in is_run]
+        columns = [measured(path, at, seed) for path, at in zip(files, asked, strict=True)]
     runs = two_runs(one, other) if all(is_run) else None
     if as_json:
         print_json({"a": str(one), "b": str(other), "statistics": columns, "runs": runs})
         return
-    print_table(("", str(one), str(other), "b / a"), rows_of(*columns))
+    if columns:
+        print_table(("", str(one), str(other), "b / a"), rows_of(*columns))
     if runs is not None:
-        typer.echo()
+        if columns:
+            typer.echo()
         counts = [(kind, *pair) for kind, pair in runs["events"].items()]
         print_table(("events", str(one), str(other)), counts)
         typer.echo(f"\n{said(runs['first_difference'])}")
+
+
+def are_stems(files: Sequence[Path]) -> bool:
+    """Tell whether all of some runs are those of stems."""
+    from vasc.timeline import Timeline
+
+    dimensions = []
+    for path in files:
+        with Timeline(path) as timeline:
+            dimensions.append(timeline.dimensions)
+    return all(n == 3 for n in dimensions)
 
 
 def rows_of(one: dict[str, Any], other: dict[str, Any]) -> Iterator[tuple[Any, ...]]:
