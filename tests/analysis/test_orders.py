@@ -66,6 +66,12 @@ class TestVeinOrders:
         assert min(orders, default=1) == 1
         assert by_segment(moved, widths * size, vein_orders) == orders
 
+    def test_a_star_of_very_many_veins(self):
+        net, widths = junction(np.linspace(0.0, 359.9, 20_000), np.linspace(1.0, 9.0, 20_000))
+        orders = by_segment(without_seeds(net), widths, vein_orders)
+        assert orders[-1] == 1
+        assert orders == sorted(orders, reverse=True)
+
     def test_nothing(self):
         assert vein_orders(find_sections(network([], []))).shape == (0,)
 

@@ -96,13 +96,18 @@ class TestCompare:
         assert counts["run_finished"] == [1, 1]
         assert counts["source_placed"][0] != counts["source_placed"][1]
         assert found["runs"]["first_difference"]["step"] == 1
-        assert "first difference: step 1, " in output(["compare", leaf, other], capsys)
+        parting = found["runs"]["first_event"]
+        assert parting["a"] != parting["b"]
+        assert parting["a"]["kind"] == parting["b"]["kind"] == "source_placed"
+        said = output(["compare", leaf, other], capsys)
+        assert "first difference: step 1, " in said
+        assert "first event that differs: 2 source_placed 0 -1 | 1 source_placed 0 -1" in said
 
     def test_a_run_and_itself(self, leaf, recorded, capsys):
         copy = str(recorded / "copy.h5")
         shutil.copy(leaf, copy)
         found = json.loads(output(["compare", leaf, copy, "--json"], capsys))
-        assert found["runs"]["first_difference"] is None
+        assert found["runs"]["first_difference"] is found["runs"]["first_event"] is None
         assert found["statistics"][0] == found["statistics"][1]
         assert "the two runs are the same, bit for bit" in output(["compare", leaf, copy], capsys)
 
@@ -114,6 +119,7 @@ class TestCompare:
         found = json.loads(output(["compare", leaf, short, "--json", "--step", "10"], capsys))
         assert found["statistics"][0] == found["statistics"][1]
         assert found["runs"]["first_difference"]["step"] == 11
+        assert found["runs"]["first_event"]["b"] is None
 
     def test_a_step_that_is_not_there(self, leaf, capsys):
         assert "step 9999 is not recorded" in complaint(

@@ -1,13 +1,15 @@
 """Axes: sections that continue each other through forks are one vein."""
 
 from dataclasses import dataclass
-from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vasc.analysis.sections import Sections
 from vasc.arrays import Floats
+
+MOST_VEINS = 100
+"""Veins that meet at a place through which any of them may go on."""
 
 
 @dataclass(frozen=True)
@@ -74,9 +76,11 @@ def _candidates(sections: Sections) -> tuple[NDArray[np.int64], Floats]:
     order = np.argsort(at, kind="stable")
     degrees = sections.degrees[at[order]]
     found = [np.zeros((0, 2), dtype=np.int64)]
-    for degree in np.unique(degrees[degrees > 1]).tolist():
+    is_fork = (degrees > 1) & (degrees <= MOST_VEINS)
+    for degree in np.unique(degrees[is_fork]).tolist():
         meeting = order[degrees == degree].reshape(-1, degree)
-        found += [meeting[:, list(pair)] for pair in combinations(range(degree), 2)]
+        rows, columns = np.triu_indices(degree, 1)
+        found.append(np.stack([meeting[:, rows].ravel(), meeting[:, columns].ravel()], axis=1))
     pairs = np.concatenate(found)
     vectors = sections.leaving().reshape(-1, 2)
     sizes = np.sqrt((vectors**2).sum(axis=1))

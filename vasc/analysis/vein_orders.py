@@ -101,6 +101,8 @@ def _spread(sections: Sections, axes: Axes, of_axes: Floats) -> NDArray[np.int64
         heap += [(-float(widths[end]), end, 1, first) for end in ends]
         heap.append((-math.inf, widest, 1, first))
     heapify(heap)
+    # the lowest order that has come to each point: its veins spring from that one
+    reached: dict[int, int] = {}
     while heap:
         _, end, order, parent = heappop(heap)
         axis = int(owner[end])
@@ -110,6 +112,9 @@ def _spread(sections: Sections, axes: Axes, of_axes: Floats) -> NDArray[np.int64
         orders[axis] = order + is_thinner
         typical[axis] = of_axes[axis] if is_thinner else typical[parent]
         for point in {int(points[own]) for own in by_axis(axis)}:
+            if reached.get(point, order + 2) <= orders[axis]:
+                continue
+            reached[point] = int(orders[axis])
             for other in by_point(point):
                 if not orders[owner[other]]:
                     heappush(heap, (-float(widths[other]), other, int(orders[axis]), axis))

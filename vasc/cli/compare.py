@@ -1,18 +1,23 @@
 """``vasc compare``: two runs, or a run and a real leaf, side by side."""
 
 from collections.abc import Iterator, Sequence
+from itertools import zip_longest
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from vasc.cli.options import AsJson, Step
 from vasc.cli.stats import Seed, measured
 
+if TYPE_CHECKING:
+    from vasc.timeline import Events
+
 EXAMPLES = ("vasc compare poplar-leaf.h5 leaf_edges.csv", "vasc compare near.h5 far.h5")
 
 Input = Annotated[Path, typer.Argument(help="A recorded run, or a real network.")]
 
+EVENT = ("step", "kind", "subject", "object")
 WHERE = ("step", "table", "column", "row")
 
 
@@ -42,6 +47,9 @@ def compare(
         counts = [(kind, *pair) for kind, pair in runs["events"].items()]
         print_table(("events", str(one), str(other)), counts)
         typer.echo(f"\n{said(runs['first_difference'])}")
+        if parting := runs["first_event"]:
+            values = (" ".join(map(str, (parting[run] or {}).values())) for run in "ab")
+            typer.echo(f"first event that differs: {' | '.join(value or '-' for value in values)}")
 
 
 def are_stems(files: Sequence[Path]) -> bool:
@@ -87,6 +95,7 @@ def two_runs(one: Path, other: Path) -> dict[str, Any]:
 
     with Timeline(one) as first, Timeline(other) as second:
         counts = first.events.counts(), second.events.counts()
+        event = first_event(first.events, second.events)
         differences = timeline_differences(first, second)
     kinds = dict.fromkeys([*counts[0], *counts[1]])
     found = None
@@ -96,8 +105,27 @@ def two_runs(one: Path, other: Path) -> dict[str, Any]:
         found |= {"a": difference.recorded, "b": difference.repeated}
     return {
         "events": {kind: [count.get(kind, 0) for count in counts] for kind in kinds},
+        "first_event": event,
         "first_difference": found,
     }
+
+
+def first_event(one: "Events", other: "Events") -> dict[str, Any] | None:
+    """Give the first event at which the sequences of two runs part, None if they do not."""
+    columns = [[events[name].tolist() for name in EVENT] for events in (one, other)]
+    rows = (zip(*each, strict=True) for each in columns)
+    for row, pair in enumerate(zip_longest(*rows)):
+        if pair[0] != pair[1]:
+            return {"row": row, "a": _named(pair[0], one), "b": _named(pair[1], other)}
+    return None
+
+
+def _named(event: tuple[int, ...] | None, events: "Events") -> dict[str, Any] | None:
+    """Give an event with the name of its kind; None where a run has ended."""
+    if event is None:
+        return None
+    found: dict[str, Any] = dict(zip(EVENT, event, strict=True))
+    return found | {"kind": events.names.get(found["kind"], f"kind {found['kind']}")}
 
 
 def said(difference: dict[str, Any] | None) -> str:
