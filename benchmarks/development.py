@@ -17,7 +17,7 @@ from scipy.spatial import Delaunay, QhullError, cKDTree
 
 from vasc.config import load
 from vasc.placement import Moment
-from vasc.placement.empty_circles import Room, circumcentres
+from vasc.placement.room import Room, circumcentres
 from vasc.simulation import simulate
 from vasc.streams import Streams
 

@@ -8,16 +8,18 @@ spread evenly over its iterations, against the whole of vasc's run.
 """
 
 import json
-import math
 import os
 import sys
 import time
 from collections import deque
 
+import numpy as np
+
 from vasc.kernels import cylinder, urquhart_3d
 from vasc.kernels import stem as steps
+from vasc.placement.primordia import on_stem
 
-ANGLE = math.radians(137.5)
+ANGLE = 137.5
 RISE = 10.0
 PLASTOCHRON = 5
 HEIGHTS = (20, 40, 80, 160, 320, 640)
@@ -26,13 +28,19 @@ SMALL = ((16.0, 30), (50.0, 30), (115.0, 14))
 N_STATES = 16
 
 
+def primordia(numbers, radius):
+    """Places of the primordia of some numbers."""
+    heights = (numbers + 1.0) * RISE
+    return on_stem(numbers * ANGLE, heights, np.full(len(numbers), radius))
+
+
 def states(radius, n_primordia):
     """Yield the stem after every iteration."""
     stem = steps.insert(steps.place(steps.stem(1.0), cylinder.ring(radius, 1.0)), 0, 1.0)
     n_placed, iteration = 0, 0
     while n_placed < n_primordia or len(stem.pairs) > 0:
         if n_placed < n_primordia and iteration >= n_placed * PLASTOCHRON:
-            where = cylinder.primordia(n_placed, n_placed + 1, radius, RISE, ANGLE)
+            where = primordia(np.array([n_placed]), radius)
             stem = steps.insert(steps.place(stem, where), stem.n_nodes, 1.0)
             n_placed += 1
         start, n_edges = stem.n_nodes, stem.n_edges
@@ -82,7 +90,7 @@ def baseline_seconds(radius, n_primordia, n_iterations):
 def main():
     """Print a row a case; with --json as JSON."""
     run(5.0, 3)
-    urquhart_3d.urquhart_pairs(cylinder.primordia(0, 9, 5.0, RISE, ANGLE))
+    urquhart_3d.urquhart_pairs(primordia(np.arange(9), 5.0))
     rows = [measure(RADIUS, n_primordia) for n_primordia in HEIGHTS]
     for case in SMALL:
         row = measure(*case)

@@ -15,9 +15,6 @@ from vasc.sources import Cause
 from vasc.state import Places, Tables
 from vasc.states import CanalState, Kind, SourceState
 
-CELL_LIMITS = (2.0, 8.0)
-"""Least and greatest side of a grid cell, in segment lengths."""
-
 
 class Vasculature:
     """Veins and sources in growth.

@@ -25,6 +25,8 @@ WORDS = 0.2
 """Height of the line above a stem, in inches."""
 GAP = 0.12
 """Free paper around a stem, in inches."""
+COLUMNS = 2
+"""Stems side by side."""
 
 
 @dataclass(frozen=True)
@@ -88,7 +90,6 @@ def solid(ax: Axes, stem: Grown, style: StemStyle = SOLID) -> None:
 def draw_pairs(
     stems: Sequence[tuple[str, Grown]],
     *,
-    columns: int = 2,
     sizes: tuple[float, float] = (2.35, 0.85),
     height: float = 1.95,
 ) -> Figure:
@@ -96,19 +97,18 @@ def draw_pairs(
 
     ``sizes`` are the widths of both, in inches.
     """
-    cell = GAP + sum(sizes) + (GAP if sizes[1] else 0.0)
-    rows = -(-len(stems) // columns)
-    width, tall = columns * cell + GAP, rows * (height + WORDS + GAP) + GAP
+    cell = GAP + sum(sizes) + GAP
+    rows = -(-len(stems) // COLUMNS)
+    width, tall = COLUMNS * cell + GAP, rows * (height + WORDS + GAP) + GAP
     figure = Figure(figsize=(width, tall), facecolor="white")
     FigureCanvasAgg(figure)
     for number, (words, stem) in enumerate(stems):
-        row, column = divmod(number, columns)
+        row, column = divmod(number, COLUMNS)
         left = GAP + column * cell
         bottom = tall - (row + 1) * (height + WORDS + GAP)
         for draw, x, across in ((flat, left, sizes[0]), (solid, left + sizes[0] + GAP, sizes[1])):
-            if across:
-                box = (x / width, bottom / tall, across / width, height / tall)
-                draw(figure.add_axes(box), stem)
+            box = (x / width, bottom / tall, across / width, height / tall)
+            draw(figure.add_axes(box), stem)
         letter = chr(ord("a") + number)
         at = (left / width, (bottom + height + 0.3 * WORDS) / tall)
         figure.text(*at, f"{letter}) {words}", fontsize=7.5, color=INK)

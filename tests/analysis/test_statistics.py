@@ -1,6 +1,7 @@
 """The dictionary of numbers."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from reference.networks import PlainMoment, grid, network, sources, square_blade
 from vasc.analysis import network_statistics, statistics
 from vasc.analysis.statistics import POWERS
 from vasc.analysis.units import LengthUnit
+from vasc.network import Origin
 from vasc.real_network import RealNetwork
 
 KEYS = {
@@ -74,6 +76,25 @@ def test_json_takes_it_as_it_is():
     found = statistics(tree)
     assert json.loads(json.dumps(found, allow_nan=False)) == found
     assert found["areole_area_mean"] is None
+
+
+def test_a_stem_measured_by_hand():
+    # a ring of three, a vein from it to a primordium, a fork with a blind branch
+    points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 2), (0, 0, 4), (1, 0, 2)]
+    flat = network(
+        [point[:2] for point in points],
+        [(0, 1), (1, 2), (2, 0), (0, 3), (3, 4), (3, 5)],
+        origins=[Origin.SEED] * 3 + [Origin.EXTENSION, Origin.PRIMORDIUM, Origin.EXTENSION],
+    )
+    stem = PlainMoment(replace(flat, positions=np.array(points, dtype=float)), None, sources())
+    found = statistics(stem, {"length": "um", "segment": 4.0})
+    assert found.keys() == statistics(GRID).keys()
+    assert (found["nodes"], found["segments"]) == (6, 6)
+    assert (found["components"], found["cycles"], found["free_ends"]) == (1, 1, 1)
+    assert found["vein_length"] == pytest.approx(4.0 * (1 + np.sqrt(2) + 1 + 2 + 2 + 1))
+    assert found["junction_degree"] == {"3": 1.0}
+    blade = ("blade_length", "blade_area", "vein_density", "areoles")
+    assert [found[key] for key in (*blade, "areole_area_mean", "areole_area_cv")] == [None] * 6
 
 
 def test_units_of_a_config_without_units():

@@ -84,7 +84,7 @@ WRONG = {
         config(growth='kind = "none"\nfinal_length = 60.0'),
         "growth.final_length = 60.0",
         'unknown key for kind "none"',
-        "allowed: kind",
+        'leave it out, or choose kind "isogonic" or "marginal"',
     ),
     "key of another table": (
         config(arrival="kill_distance = 1.0\nsegment_length = 1.0"),

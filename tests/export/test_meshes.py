@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from reference.stem_run import recorded_in
 
-from vasc.analysis.tubes import BASE_RADIUS, PRIMORDIUM_RADIUS, set_outward
+from vasc.analysis.tubes import BASE_RADIUS, PRIMORDIUM_OUTWARD, PRIMORDIUM_RADIUS, set_outward
 from vasc.errors import OutputError, VascError
 from vasc.export import MESH_SUFFIXES, export, mesh_of, sphere, tube
 from vasc.timeline import Timeline
@@ -97,7 +97,7 @@ def test_every_body_of_a_stem_is_closed_and_right_side_out(stem):
 
 def test_bounds_are_those_of_the_stem(stem):
     mesh = mesh_of(stem.positions, stem.segments, stem.primordia)
-    centres = set_outward(stem.positions[stem.primordia], 0.6 * PRIMORDIUM_RADIUS)
+    centres = set_outward(stem.positions[stem.primordia], PRIMORDIUM_OUTWARD)
     low = np.minimum(stem.positions.min(axis=0) - BASE_RADIUS, centres.min(axis=0))
     high = np.maximum(stem.positions.max(axis=0) + BASE_RADIUS, centres.max(axis=0))
     assert (mesh.points.min(axis=0) >= low - PRIMORDIUM_RADIUS).all()

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from reference.stem import relative_neighbors, squares
+from reference.stem_driver import spiral
 from scipy.spatial import Delaunay
 
 from vasc import kernels
@@ -180,12 +181,12 @@ def test_neighbors_of_primordia_are_those_that_the_lattice_predicts(
     degrees, radius, rise, straight, along
 ):
     angle, middle = np.deg2rad(degrees), 40
-    points = cylinder.primordia(0, 81, radius, rise, angle)
+    points = spiral(0, 81, radius, rise, angle)
     tree = kernels.octree.insert(kernels.octree.octree(8.0), points, 0, 81)
     above = kernels.relative_neighbors_3d.relatives(tree, points, middle) - middle
     # thesis: (1, 1) for a single neighbour above
     assert tuple(m for m in above.tolist() if m > 0) == straight
     period = cylinder.circumference(radius)
-    unrolled = cylinder.primordia(0, 81, radius, rise, angle, period)
+    unrolled = spiral(0, 81, radius, rise, angle, period)
     rows = kernels.unrolled.relatives_on_surface(unrolled, 0, 81, period)
     assert tuple((rows[rows[:, 1] == middle, 0] - middle).tolist()) == along

@@ -221,18 +221,6 @@ def test_stems_of_twice_the_size_have_twice_the_positions():
     assert rows_of(small)[1] == rows_of(large)[1]
 
 
-def test_a_restored_stem_goes_on_to_the_same_bytes():
-    whole, _ = grow(8.0, 10.0, 137.5, 4, 2)
-    half, _ = grow(8.0, 10.0, 137.5, 4, 2, most=9)
-    assert len(half.pairs) > 0
-    n, m = half.n_nodes, half.n_edges
-    stem = steps.restored(half.positions[:n], half.parents[:n], half.edges[:m], half.pairs, 1.0)
-    while len(stem.pairs) > 0:
-        stem = advance(stem)
-    assert rows_of(stem)[0].tobytes() == rows_of(whole)[0].tobytes()
-    assert rows_of(stem)[1] == rows_of(whole)[1]
-
-
 def test_the_approximation_gives_another_stem():
     exact, _ = grow(16.0, 10.0, 137.5, 8, 5)
     other, _ = grow(16.0, 10.0, 137.5, 8, 5, insert=urquhart_3d.insert, most=300)

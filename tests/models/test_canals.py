@@ -10,6 +10,7 @@ from vasc.events import EventKind
 from vasc.growth import NoGrowthParameters
 from vasc.models.canals import Canal, CanalPerception, Canals
 from vasc.models.perception import Cut
+from vasc.network import Origin, SegmentKind
 from vasc.placement import Moment
 from vasc.sources import Cause
 from vasc.state import Tables
@@ -77,6 +78,24 @@ def test_the_first_canal_is_that_of_the_sentence(seed, n_nodes):
     neighbors = slow.relative_neighbors(source, nodes)
     first = slow.closest(neighbors, source, nodes, veins_of.tolist(), TIE)
     assert induced(nodes, veins_of, source) == (neighbors, first)
+
+
+def test_a_leaning_vein_leaves_nearer_to_the_base_but_never_beyond_a_branch():
+    # a midvein of 13 nodes, 1 D apart, and a branch at the height 2; the source is 4 D off
+    nodes = [(0.0, float(y)) for y in range(13)] + [(-1.0, 2.0)]
+    segments = [(y, y + 1) for y in range(12)] + [(2, 13)]
+    for lean, cause, height in (
+        (0.0, Cause.SPACE, 8),
+        (0.5, Cause.SPACE, 6),
+        (2.0, Cause.SPACE, 2),
+        (0.5, Cause.MARGIN, 8),
+    ):
+        veins = vasculature(nodes, [0] * 14, [(4.0, 8.0)])
+        veins.add_segments(0, np.array(segments, dtype=np.int32), SegmentKind.EXTENSION)
+        veins.nodes.arrays["origin"][1:14] = Origin.EXTENSION
+        veins.sources.arrays["cause"][0] = cause
+        (inbound,) = CanalPerception(Canals(), TIE, lean).perceive(veins, MOMENT).under_way()
+        assert (inbound.node, inbound.tip) == (8, height)
 
 
 def test_canals_lead_to_the_nearer_of_the_nodes_that_replace_one():

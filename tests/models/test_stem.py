@@ -151,6 +151,15 @@ def test_a_restored_stem_goes_on_as_before(step, metric):
             np.testing.assert_array_equal(state.rows(name, column), table.view(column))
 
 
+def test_a_state_that_has_a_successor_cannot_be_advanced_again():
+    parameters = stem(12, 10, 1, 1, first_step=1)
+    model, streams = parameters.model(), Streams(1, parameters.stream_names)
+    first = model.initial_state(streams)
+    model.advance(first, streams)
+    with pytest.raises(ValueError, match="step 0 has been advanced already"):
+        model.advance(first, streams)
+
+
 def test_another_metric_connects_other_primordia():
     parameters = stem(12, 10, 8, 5)
     by_chord = states_of(parameters)[-1]

@@ -4,7 +4,9 @@ import numpy as np
 from reference.leaves import SMALL, leaf
 from scipy.spatial import cKDTree
 
+from vasc.events import EventKind
 from vasc.models import MODELS
+from vasc.network import Origin
 from vasc.simulation import simulate
 from vasc.streams import Streams
 
@@ -19,9 +21,10 @@ def test_no_room_is_left_between_points_of_the_margin():
     for state in simulate(model, Streams(1), max_steps=90):
         if before is not None:
             is_there = (state.rows("nodes", "birth") < state.step) | (
-                state.rows("nodes", "origin") == 3
+                state.rows("nodes", "origin") == Origin.REFINEMENT
             )
-            is_there[state.rows("events", "subject")[state.rows("events", "kind") == 11]] = False
+            is_retirement = state.rows("events", "kind") == EventKind.NODE_RETIRED
+            is_there[state.rows("events", "subject")[is_retirement]] = False
             live = [*before.live, *range(before.n_rows("sources"), state.n_rows("sources"))]
             sites = np.concatenate(
                 [state.positions("nodes")[is_there], state.positions("sources")[live]]

@@ -7,12 +7,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 from reference.stem_veins import laid_out
 
 from vasc.analysis.ways import ways
 from vasc.errors import OutputError, ShapeError
 from vasc.render import UnrolledStyle, draw_unrolled
-from vasc.render.unrolled import _beyond, unroll
+from vasc.render.unrolled import _beyond, draw_flat, unroll
 
 RADIUS = 50.0
 
@@ -109,6 +111,25 @@ def test_the_picture_has_numbered_boxes_and_dashes(stem, tmp_path):
     assert "stroke-dasharray" in text
     # no vein of this stem is near the axis
     assert style.faded not in text
+
+
+@pytest.mark.parametrize(("divergence", "step", "is_hidden"), [(137.5, 5, True), (180.0, 2, False)])
+def test_boxes_leave_the_veins_of_rows_free(divergence, step, is_hidden):
+    positions, segments, primordia, _ = laid_out(
+        divergence, RADIUS, 10.0, [[m + step] for m in range(30)]
+    )
+    figure = Figure(figsize=(7.0, 4.0))
+    FigureCanvasAgg(figure)
+    axes = figure.add_axes((0.1, 0.1, 0.8, 0.8))
+    draw_flat(axes, positions, segments, primordia, radius=RADIUS)
+    figure.draw_without_rendering()
+    boxes = {text.get_text(): text.get_bbox_patch().get_window_extent() for text in axes.texts}
+    assert len(boxes) == 30
+    places = unroll(positions, segments, RADIUS).places[primordia]
+    for number, place in enumerate(axes.transData.transform(places)):
+        # near the cut a box may be drawn on both sides
+        if 60.0 < places[number, 0] < 300.0:
+            assert boxes[str(number)].contains(*place) == is_hidden
 
 
 def test_equal_stems_give_equal_bytes(stem, tmp_path):

@@ -10,7 +10,6 @@ from timeline import synthetic
 from timeline.synthetic import N_RING, NAMES, SEED, StemRun, SyntheticRun, blade, contents, create
 
 from vasc import experiment as experiments
-from vasc.analysis import statistics
 from vasc.cli.program import main
 from vasc.errors import TimelineError, VascError
 from vasc.experiment import Difference
@@ -149,14 +148,13 @@ def test_a_leaf_has_no_ring_at_a_base(tmp_path):
 @pytest.mark.parametrize(
     ("line", "words"),
     [
-        (["stats"], "{path}: a stem has no blade"),
         (["render", "-o", "out.png"], "{path}: is no stem, but a run of the kind 'synthetic'"),
         (
             ["animate", "-o", "out.gif"],
             "{path}: films are made of leaves; draw it with vasc render",
         ),
     ],
-    ids=["stats", "render", "animate"],
+    ids=["render", "animate"],
 )
 def test_verbs_that_need_a_blade_or_a_known_stem_say_so(path, line, words, capsys, monkeypatch):
     monkeypatch.chdir(path.parent)
@@ -167,10 +165,9 @@ def test_verbs_that_need_a_blade_or_a_known_stem_say_so(path, line, words, capsy
     assert not list(path.parent.glob("out*"))
 
 
-def test_what_looks_at_states_says_that_there_is_no_blade(recorded):
-    for look in (statistics, draw_leaf):
-        with pytest.raises(VascError, match="a stem has no blade"):
-            look(recorded[1][-1])
+def test_pictures_of_states_say_that_there_is_no_blade(recorded):
+    with pytest.raises(VascError, match="a stem has no blade"):
+        draw_leaf(recorded[1][-1])
 
 
 class StemModel:

@@ -19,6 +19,7 @@ from vasc.validation.stem_phyllotaxis import (
     StemGraph,
     check_connectivity,
     measure_connectivity,
+    n_sympodia,
     sympodia,
 )
 from vasc.validation.stem_phyllotaxis.connectivity import (
@@ -244,6 +245,18 @@ def test_open_veins_of_one_step_are_as_many_sympodia():
     assert found.dominant == (5,)
     assert found.pair == (5, 5)
     assert sympodia(found)[:10].tolist() == [0, 1, 2, 3, 4, 0, 1, 2, 3, 4]
+
+
+@pytest.mark.parametrize("member_step", [0, 1])
+@pytest.mark.parametrize("levels", [1, 2, 3])
+def test_systems_of_leaves_in_pairs_are_counted(levels, member_step):
+    # from each leaf to one some levels up, on the same side or on the other
+    n_primordia = 60
+    ups = [(m // 2 + levels, (m % 2 + member_step) % 2) for m in range(n_primordia)]
+    links = [(2 * level + member, m) for m, (level, member) in enumerate(ups)]
+    links = tuple(link for link in links if link[0] < n_primordia)
+    found = Connectivity(links, ((),) * n_primordia, range(1))
+    assert n_sympodia((2 * levels + member_step,), per_level=2) == len(set(sympodia(found)))
 
 
 def test_decussate_veins():

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from vasc import Timeline, VascError, load, run
+from vasc.network import Origin
 from vasc.validation.arabidopsis import check_sequence, read_story
 from vasc.validation.arabidopsis.features import mirror_distance, notch_depths
-from vasc.validation.arabidopsis.loops import is_within, polygon_area, shortest_path
+from vasc.validation.arabidopsis.loops import shortest_path
 from vasc.validation.arabidopsis.reading import birth_distance, first_perceived, node_owners
 from vasc.validation.arabidopsis.story import LoopStory
 
@@ -137,7 +138,7 @@ def test_nodes_of_refinement_belong_to_a_vein(darts):
     with Timeline(darts) as timeline:
         owners = node_owners(timeline)
         is_seed = timeline.table("nodes", "parent") == -1
-        assert (timeline.table("nodes", "origin") == 3).any()
+        assert (timeline.table("nodes", "origin") == Origin.REFINEMENT).any()
     assert owners[is_seed].tolist() == [0]
     # a half of a segment between seed and first node is of the vein, not of the seed
     assert (owners[~is_seed] > 0).all()
@@ -148,13 +149,11 @@ def test_the_first_set_of_a_source_is_that_of_its_birth(darts):
         sets = first_perceived(timeline)
         births = timeline.table("sources", "birth")
         node_births = timeline.table("nodes", "birth")
-        places = timeline.table("nodes", "position")
         assert set(sets) <= set(range(len(births)))
         assert sets
         for source, nodes in sets.items():
             assert len(set(nodes.tolist())) == len(nodes)
             assert (node_births[nodes] <= births[source]).all()
-        assert len(places) == len(node_births)
 
 
 def test_the_birth_distance_is_the_config_s_or_an_estimate(darts, given):
@@ -191,14 +190,6 @@ def test_the_shortest_way_is_by_length_and_not_by_number():
 def test_nodes_at_one_place_do_not_cut_a_way():
     places = np.array([[0.0, 0.0], [0.0, 0.0], [1.0, 0.0]])
     assert shortest_path(np.array([[0, 1], [1, 2]]), places, 0, 2).tolist() == [0, 1, 2]
-
-
-def test_areas_and_insides_of_polygons():
-    arrow = np.array([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 1.0], [0.0, 4.0]])
-    assert polygon_area(arrow) == polygon_area(arrow[::-1]) == 10.0
-    assert is_within(np.array([0.5, 2.0]), arrow)
-    assert not is_within(np.array([2.0, 2.0]), arrow)
-    assert not is_within(np.array([5.0, 2.0]), arrow)
 
 
 def test_mirror_distances():

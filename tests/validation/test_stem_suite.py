@@ -50,10 +50,22 @@ def test_a_stem_is_read_as_it_was_recorded(path):
         heights = graph.positions[graph.primordia, 2]
         np.testing.assert_allclose(heights, 10.0 * np.arange(1, 27))
         assert (graph.rise, graph.radius, graph.per_level) == (10.0, 12.0, 1)
+        assert graph.radius_range is None
         report = check_connectivity(graph)
     assert report.pair == (1, 1)
     assert report.fraction == 1.0
     assert report.passed
+
+
+def test_a_stem_whose_radius_changes_is_judged_by_its_middle(tmp_path):
+    wider = STEM.replace("radius = 12.0", "radii = [[0.0, 10.0], [100.0, 20.0]]")
+    run(load_text(wider), tmp_path / "wider.h5", steps=60)
+    with Timeline(tmp_path / "wider.h5") as timeline:
+        graph = read_stem(timeline)
+        # primordia are at heights of 10, 20, ...; eleven have appeared
+        assert len(graph.primordia) == 11
+        assert graph.radius == pytest.approx(16.0)
+        assert graph.radius_range == pytest.approx((11.0, 20.0))
 
 
 def test_internodes_grow_in_pictures_alone(path):
@@ -82,7 +94,7 @@ def test_a_leaf_is_no_stem(tmp_path):
 def test_the_command_line_tells_the_pair(path, capsys):
     assert main(["check", "connectivity", str(path)]) == 0
     shown = capsys.readouterr().out
-    assert "connected               (1, 1)" in shown
+    assert "connected                 (1, 1)" in shown
     assert "stem.h5: pass" in shown
     assert main(["check", "connectivity", str(path), "--json"]) == 0
     told = json.loads(capsys.readouterr().out)

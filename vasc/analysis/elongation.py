@@ -1,7 +1,5 @@
 """Vein widths by elongation: veins that are stretched grow wider (Runions 2008, section 5.2)."""
 
-from collections.abc import Iterable
-
 import numpy as np
 
 from vasc.analysis.moment import Moment
@@ -74,7 +72,7 @@ class Elongation:
         self.widths = widths
 
     def _thinner_ends(self, network: VeinNetwork) -> Floats:
-        """Give for every node the width of its thinnest neighbour that is not new."""
+        """Give for every node the width of its thinnest neighbor that is not new."""
         known = np.full(network.n_nodes, np.inf)
         known[: len(self.widths)] = self.widths
         thinner = np.full(network.n_nodes, np.inf)
@@ -100,24 +98,3 @@ def stretched_pipes(network: VeinNetwork, widths: Floats, exponent: float) -> Pi
     """
     amounts = widths**exponent
     return Pipes(amounts, amounts[network.segments].min(axis=1, initial=np.inf))
-
-
-def elongation_widths(moments: Iterable[Moment], kappa: float = 1.0) -> Floats:
-    """Give the width of every node after a run, by the elongation of its segments.
-
-    Parameters
-    ----------
-    moments : iterable of Frame or State
-        All steps of a run, in order.
-    kappa : float
-        Increase of the width relative to that of the length.
-
-    Returns
-    -------
-    ndarray of shape (n,), float64
-        Widths, 1 for a node that has just been born; empty without moments.
-    """
-    elongation = Elongation(kappa)
-    for moment in moments:
-        elongation.update(moment)
-    return elongation.widths

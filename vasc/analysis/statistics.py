@@ -4,6 +4,9 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
+from vasc.analysis.density import vein_length
 from vasc.analysis.measures import Measured, measure
 from vasc.analysis.moment import Moment, blade_of
 from vasc.analysis.sections import find_sections
@@ -42,20 +45,19 @@ def statistics(
     -------
     dict
         Plain numbers, ready for JSON; docs/statistics.md says what each key is.
-        What cannot be said of a pattern, as areas of areoles without any, is None.
-
-    Raises
-    ------
-    VascError
-        If there is no blade, as in a stem.
+        What cannot be said of a pattern, as areas of areoles without any, is None, and
+        of a stem all that needs a drawing in the plane.
     """
     unit = LengthUnit.from_table(units)
-    network, blade = moment.network, blade_of(moment)
+    network = moment.network
+    when = {"step": int(moment.step), "time": float(moment.time), "length_unit": unit.name}
+    if network.positions.shape[1] == 3:
+        return when | _in_unit(_of_stem(network), unit.per_segment)
+    blade = blade_of(moment)
     widths = 2.0 * segment_radii(network) if widths is None else widths
     measured = measure(find_sections(network, widths), blade.polygon, seed=seed)
     blade_size = {"blade_length": float(blade.length), "blade_area": float(blade.area)}
     numbers = _numbers(network, measured, float(blade.area), blade_size)
-    when = {"step": int(moment.step), "time": float(moment.time), "length_unit": unit.name}
     return when | _in_unit(numbers, unit.per_segment)
 
 
@@ -110,6 +112,24 @@ def _numbers(network: VeinNetwork, measured: Measured, area: float, blade: Numbe
         "density_x_sqrt_areole": density * math.sqrt(areoles.mean_area),
         **measured.distance_numbers(density),
         **measured.width_numbers(),
+    }
+
+
+def _of_stem(network: VeinNetwork) -> Numbers:
+    """Give the numbers of veins in space under the same keys, in the same order."""
+    nothing = RealNetwork.from_edges(np.zeros((0, 2)), np.zeros((0, 2), dtype=np.int32)).network
+    blade = {"blade_length": None, "blade_area": None}
+    keys = _numbers(nothing, measure(find_sections(nothing), None), 0.0, blade)
+    components = count_components(network)
+    degrees = junction_degree(network)
+    return dict.fromkeys(keys) | {
+        "nodes": network.n_vein_nodes,
+        "segments": network.n_segments,
+        "components": components,
+        "cycles": count_cycles(network, components=components),
+        "vein_length": vein_length(network),
+        "free_ends": len(free_ends(network)),
+        "junction_degree": {str(degree): share for degree, share in degrees.items()},
     }
 
 

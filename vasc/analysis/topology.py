@@ -65,9 +65,11 @@ def free_ends(network: VeinNetwork) -> Ids:
     Returns
     -------
     ndarray of shape (k,), int32
-        Nodes with one segment that are not seeds, ascending.
+        Nodes with one segment, ascending. Seeds are none, nor are primordia: the vein
+        of a primordium goes on into its leaf.
     """
-    is_end = (network.degrees == 1) & (network.origins != Origin.SEED)
+    goes_on = np.isin(network.origins, [Origin.SEED, Origin.PRIMORDIUM])
+    is_end = (network.degrees == 1) & ~goes_on
     return np.flatnonzero(is_end).astype(np.int32)
 
 

@@ -10,6 +10,8 @@ APEX_RADIUS = 0.45
 """Of a strand at the apex, in D."""
 PRIMORDIUM_RADIUS = 2.4
 """Of the sphere that stands for a primordium, in D."""
+PRIMORDIUM_OUTWARD = 0.6 * PRIMORDIUM_RADIUS
+"""How far that sphere stands off the surface of the stem (Runions 2008, section 6.2.2), in D."""
 
 
 def strand_radii(heights: Floats) -> Floats:

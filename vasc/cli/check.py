@@ -1,6 +1,5 @@
 """``vasc check``: a run held against what is expected of it."""
 
-from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -10,7 +9,6 @@ from vasc.cli.options import AsJson, Force, RunFile
 
 if TYPE_CHECKING:
     from vasc.validation.arabidopsis import SequenceReport
-    from vasc.validation.stem_phyllotaxis import ConnectivityReport
 
 EXAMPLES = ("vasc check sequence arabidopsis.h5", "vasc check connectivity stem.h5")
 """Examples of the group."""
@@ -121,6 +119,7 @@ def connectivity(
 
     Exit code 1 if they connect other primordia than predicted, or too few of them do.
     """
+    from vasc.cli.connectivity import print_connectivity, told
     from vasc.cli.printing import print_json
     from vasc.cli.run import check_picture
     from vasc.timeline import Timeline
@@ -143,59 +142,12 @@ def connectivity(
             graph.primordia,
             output,
             radius=graph.radius,
-            title=f"{path.name}: {_pair(report.pair)}, predicted {_pair(report.prediction.pair)}",
+            title=f"{path.name}: {told(report.steps, report.prediction)},"
+            f" predicted {told(report.prediction.steps, report.prediction)}",
         )
     if as_json:
         print_json(report.as_json() | {"files": [] if output is None else [str(output)]})
     else:
-        _print_connectivity(report, path, output)
+        print_connectivity(report, path, output)
     if not report.passed:
         raise typer.Exit(1)
-
-
-def _print_connectivity(report: "ConnectivityReport", path: Path, output: Path | None) -> None:
-    """Write the report on connectivity for people."""
-    from vasc.cli.printing import print_pairs, print_table, shown
-
-    found = report.as_json()
-    low, high = (shown(end) for end in found["interval"])
-    parastichies = found["parastichies"]
-    print_pairs(
-        {
-            "divergence, in degrees": found["divergence"],
-            "R, H, in D": f"{shown(found['radius'])}, {shown(found['rise'])}",
-            "R/H": f"{found['ratio']:.4g}; the prediction holds from {low} to {high}",
-            "primordia": f"{found['primordia']}; judged: {_span(found['judged'])}",
-            "connected": _pair(report.pair),
-            "predicted": f"{_pair(report.prediction.pair)}; on the surface it would be"
-            f" {_pair(report.surface.pair)}",
-            "contact parastichies": f"{_pair(parastichies['numbers'])},"
-            f" {'opposed' if parastichies['opposed'] else 'not opposed'}",
-            "separate sympodia": found["sympodia"],
-            "exactly the pair": f"{found['fraction']:.3f} of those judged",
-        }
-    )
-    if report.exceptions:
-        typer.echo("\nexceptions")
-        rows = [
-            (one.primordium, _pair(one.steps), _pair(one.missing), _pair(one.extra))
-            for one in report.exceptions
-        ]
-        print_table(("primordium", "connected to", "missing", "extra"), rows)
-    if report.tie is not None:
-        typer.echo(f"\n{WORDS[report.tie.passed]}: {report.tie.explanation}")
-    if output is not None:
-        typer.echo(f"written: {output}")
-    asked = "the rule of the tie" if report.tie else f"a share of {report.least_fraction:g}"
-    typer.echo(f"{path}: {WORDS[report.passed]}; asked: the predicted pair, and {asked}")
-
-
-def _pair(steps: Iterable[int]) -> str:
-    """Write steps as the papers do; a dash for none."""
-    text = ", ".join(str(step) for step in steps)
-    return f"({text})" if text else "-"
-
-
-def _span(ends: Sequence[int]) -> str:
-    """Write the first and the last of a range."""
-    return f"{ends[0]} to {ends[-1]}"

@@ -1,6 +1,6 @@
 """``vasc compare``: two runs, or a run and a real leaf, side by side."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -30,37 +30,21 @@ def compare(
 
     files = (one, other)
     is_run = [not is_network_file(path) for path in files]
-    columns = []
-    # stems have no statistics, and may still be compared
-    if not (all(is_run) and are_stems(files)):
-        asked = [step if runs else -1 for runs in is_run]
-        columns = [measured(path, at, seed) for path, at in zip(files, asked, strict=True)]
+    asked = [step if runs else -1 for runs in is_run]
+    columns = [measured(path, at, seed) for path, at in zip(files, asked, strict=True)]
     runs = two_runs(one, other) if all(is_run) else None
     if as_json:
         print_json({"a": str(one), "b": str(other), "statistics": columns, "runs": runs})
         return
-    if columns:
-        print_table(("", str(one), str(other), "b / a"), rows_of(*columns))
+    print_table(("", str(one), str(other), "b / a"), rows_of(*columns))
     if runs is not None:
-        if columns:
-            typer.echo()
+        typer.echo()
         counts = [(kind, *pair) for kind, pair in runs["events"].items()]
         print_table(("events", str(one), str(other)), counts)
         typer.echo(f"\n{said(runs['first_difference'])}")
         if parting := runs["first_event"]:
             values = (" ".join(map(str, (parting[run] or {}).values())) for run in "ab")
             typer.echo(f"first event that differs: {' | '.join(value or '-' for value in values)}")
-
-
-def are_stems(files: Sequence[Path]) -> bool:
-    """Tell whether all of some runs are those of stems."""
-    from vasc.timeline import Timeline
-
-    dimensions = []
-    for path in files:
-        with Timeline(path) as timeline:
-            dimensions.append(timeline.dimensions)
-    return all(n == 3 for n in dimensions)
 
 
 def rows_of(one: dict[str, Any], other: dict[str, Any]) -> Iterator[tuple[Any, ...]]:

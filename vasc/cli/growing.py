@@ -39,7 +39,7 @@ def growth_figure(path: Path, steps: Sequence[int]) -> "Figure":
     """
     from vasc.config import experiment_from_record
     from vasc.errors import ConfigError
-    from vasc.models.base import LeafVenation
+    from vasc.models.leaf import LeafVenation
     from vasc.timeline import Timeline
 
     with (

@@ -36,7 +36,7 @@ class ProgressLine:
 
     def __enter__(self) -> Self:
         if self.is_shown:
-            self._write("preparing (kernels are compiled at the first run)")
+            self._write("preparing (a first run compiles kernels; outlines need a fit)")
         return self
 
     def __exit__(

@@ -72,7 +72,7 @@ def measured(path: Path, step: int, seed: int) -> dict[str, Any]:
     with Timeline(path) as timeline:
         frame = timeline.frame(step)
         if timeline.dimensions != 2:
-            return statistics(frame)
+            return statistics(frame, timeline.units)
         asked = WidthParameters.model_validate(timeline.config.get("widths") or {})
         widths = run_widths(timeline.frame, frame.step, asked)
         return statistics(frame, timeline.units, widths=widths, seed=seed)

@@ -10,7 +10,7 @@ from vasc.config.values import assignment
 
 if TYPE_CHECKING:
     from vasc.domain import Blade, BladeParameters
-    from vasc.models.base import LeafVenation
+    from vasc.models.leaf import LeafVenation
 
 Key = tuple[str | int, ...]
 

@@ -15,7 +15,8 @@ from vasc.config.values import assignment
 from vasc.errors import ConfigError, OutlineError, TimelineError, VascError
 
 if TYPE_CHECKING:
-    from vasc.models.base import LeafVenation, Model
+    from vasc.models.base import Model
+    from vasc.models.leaf import LeafVenation
 
 FILES_KEY = "files"
 """Key of a timeline's config under which the referenced files travel."""

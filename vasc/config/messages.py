@@ -145,6 +145,9 @@ def _unknown_key(place: Place, tables: dict[str, Any], root: Schema) -> str:
     kind = (place.table or {}).get("properties", {}).get("kind", {}).get("const")
     of_kind = f" for kind {written(kind)}" if kind and len(place.path) > 1 else ""
     line = f"{assignment(place.path, place.value)}: unknown key{of_kind}"
+    if others := _kinds_with(place, key, root):
+        choice = " or ".join(written(other) for other in others)
+        return f"{line}{nearest(key, known)}; leave it out, or choose kind {choice}"
     if owners := _owning_tables(place, key, root):
         return f"{line}; it belongs in [{'] or ['.join(owners)}]"
     return line + (nearest(key, known) or f"; allowed: {', '.join(known)}")
@@ -153,6 +156,17 @@ def _unknown_key(place: Place, tables: dict[str, Any], root: Schema) -> str:
 def _keys_of(place: Place) -> list[str]:
     """Give the keys of the table that a key is in."""
     return list((place.table or {}).get("properties", ()))
+
+
+def _kinds_with(place: Place, key: str, root: Schema) -> list[str]:
+    """Give the kinds of the table a key is in that have it, where that comes in several."""
+    node = root.get("properties", {}).get(dotted(place.path[:-1]), {})
+    mapping = resolved(node, root).get("discriminator", {}).get("mapping", {})
+    return [
+        kind
+        for kind, reference in mapping.items()
+        if key in resolved({"$ref": reference}, root).get("properties", ())
+    ]
 
 
 def _owning_tables(place: Place, key: str, root: Schema) -> list[str]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from vasc.models.base import LeafVenation
+    from vasc.models.leaf import LeafVenation
 
 MARGINAL_CLASSES = (
     (1.0, "the tips of veins keep up with the margin: pinnate, with secondaries to the margin"),

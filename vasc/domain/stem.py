@@ -1,5 +1,7 @@
 """The stem: a cylinder whose apex leaves primordia behind as it rises."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from pydantic import model_validator
 
@@ -35,7 +37,27 @@ class StemParameters(Parameters):
 
     def radius_at(self, heights: Floats) -> Floats:
         """Give the radius of the stem at heights, in D."""
-        if self.radius is not None:
-            return np.full(len(heights), self.radius)
-        known = np.array(self.radii)
-        return np.asarray(np.interp(heights, known[:, 0], known[:, 1]), dtype=np.float64)
+        return radii_at(heights, self.radius, self.radii)
+
+
+def radii_at(heights: Floats, radius: float | None, radii: Sequence[tuple[float, float]]) -> Floats:
+    """Give the radius of a stem at heights.
+
+    Parameters
+    ----------
+    heights : ndarray of shape (n,), float64
+        Above the ring, in D.
+    radius : float or None
+        The radius of a cylinder, in D.
+    radii : sequence of pairs of float
+        Heights and radii, in D, of a stem that is none; linear between them.
+
+    Returns
+    -------
+    ndarray of shape (n,), float64
+        In D.
+    """
+    if radius is not None:
+        return np.full(len(heights), float(radius))
+    known = np.array(radii, dtype=np.float64)
+    return np.asarray(np.interp(heights, known[:, 0], known[:, 1]), dtype=np.float64)

@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
-from vasc.errors import OutputError, VascError
+from vasc.errors import OutputError
 from vasc.export.meshes import StemMesh, mesh_of
 from vasc.timeline import Timeline
 from vasc.timeline.frame import require
-from vasc.timeline.stems import is_stem, recorded_stem
+from vasc.timeline.stems import recorded_stem
 
 MESH_SUFFIXES = (".ply", ".obj", ".glb")
 
@@ -33,10 +33,10 @@ def export(run: str | Path | Timeline, output: str | Path, step: int = -1) -> Pa
     ------
     OutputError
         If the suffix is none of these, or the folder does not exist.
-    VascError
-        If the run is a leaf's, the step was not recorded, or trimesh is not installed.
     TimelineError
-        If ``run`` is not a timeline.
+        If ``run`` is not a timeline, or the run is no stem's.
+    VascError
+        If the step was not recorded, or trimesh is not installed.
     """
     output = Path(output)
     check_mesh_output(output)
@@ -87,7 +87,5 @@ def packed(mesh: StemMesh, suffix: str) -> bytes:
 
 def _mesh(timeline: Timeline, step: int) -> StemMesh:
     """Give the model of a run at a step."""
-    if not is_stem(timeline):
-        raise VascError("only a stem can be exported; this is the run of a leaf")
     stem = recorded_stem(timeline, step)
     return mesh_of(stem.positions, stem.segments, stem.primordia)

@@ -5,7 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from vasc.analysis.tubes import PRIMORDIUM_RADIUS, set_outward, strand_radii
+from vasc.analysis.tubes import (
+    PRIMORDIUM_OUTWARD,
+    PRIMORDIUM_RADIUS,
+    set_outward,
+    strand_radii,
+)
 from vasc.analysis.ways import ways
 from vasc.arrays import Floats, Ids, Points
 
@@ -60,11 +65,16 @@ def mesh_of(positions: Points, segments: Ids, primordia: Ids) -> StemMesh:
         Node ids.
     primordia : ndarray of shape (p,), integer
         Node ids.
+
+    Returns
+    -------
+    StemMesh
+        Without a face if there is neither a segment nor a primordium.
     """
     radii = strand_radii(positions[:, 2])
     pairs = np.unique(np.sort(segments, axis=1), axis=0)
     tubes = [tube(positions[way], radii[way]) for way in ways(pairs)]
-    centres = set_outward(positions[primordia], 0.6 * PRIMORDIUM_RADIUS)
+    centres = set_outward(positions[primordia], PRIMORDIUM_OUTWARD)
     spheres = [sphere(centre, PRIMORDIUM_RADIUS) for centre in centres]
     bodies = [*tubes, *spheres]
     counts = [len(faces) for _, faces in bodies]

@@ -5,12 +5,12 @@ from vasc.growth.base import (
     MOST_STEPS,
     Deformation,
     Growth,
-    LinearGrowthParameters,
     Similarity,
 )
 from vasc.growth.isogonic import IsogonicGrowth, IsogonicParameters
 from vasc.growth.keyframed import KeyframedGrowth
 from vasc.growth.keyframes import KeyframedParameters
+from vasc.growth.linear import LinearGrowthParameters
 from vasc.growth.local_to_global import LocalToGlobalGrowth, LocalToGlobalParameters
 from vasc.growth.marginal import MarginalGrowth, MarginalParameters
 from vasc.growth.none import NoGrowth, NoGrowthParameters

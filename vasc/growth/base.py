@@ -1,5 +1,6 @@
 """Growth as a map between material coordinates, which never change, and positions."""
 
+import math
 from abc import ABC, abstractmethod
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -10,7 +11,6 @@ from vasc import kernels
 from vasc.arrays import Floats, Ids, Points
 from vasc.domain import Blade
 from vasc.errors import ConfigError
-from vasc.parameters import Parameters, quantity
 from vasc.vasculature import Vasculature
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 MARGIN_SPACING = 1.0
-"""Greatest distance of neighbouring points of a deformed outline, in D."""
+"""Greatest distance of neighboring points of a deformed outline, in D."""
 
 MOST_STEPS = 1_000_000
 """Greatest number of steps that growth may take."""
@@ -247,55 +247,25 @@ class Deformation(Growth):
         )
 
 
-class LinearGrowth(Similarity):
-    """A blade whose length increases by the same amount in every step.
+def last_step_of(n_steps: float, key: str, value: float) -> int:
+    """Give the step in which growth that takes a number of steps ends.
 
     Parameters
     ----------
-    blade : Blade
-        The blade at step 0.
-    final_length : float
-        Blade length at which growth ends, in D.
-    length_per_step : float
-        Increase of the blade length in one step, in D.
+    n_steps : float
+        Steps that growth takes, the last of them perhaps in part.
+    key : str
+        The key of the config that decides it.
+    value : float
+        Its value.
 
     Raises
     ------
     ConfigError
-        If growth would take more than ``MOST_STEPS`` steps.
+        If there are more than ``MOST_STEPS``; the message names the key.
     """
-
-    def __init__(self, blade: Blade, final_length: float, length_per_step: float) -> None:
-        super().__init__(blade)
-        self.final_length = final_length
-        self.length_per_step = length_per_step
-        n_steps = max(0.0, (final_length - blade.length) / length_per_step)
-        if n_steps > MOST_STEPS:
-            raise ConfigError(
-                f"growth.length_per_step = {length_per_step:g}: growth would take {n_steps:.3g}"
-                f" steps; allowed are {MOST_STEPS:,}"
-            )
-        self._last_step = int(n_steps) + (int(n_steps) < n_steps)
-
-    @property
-    def last_step(self) -> int:
-        """The step in which the blade reaches its final length."""
-        return self._last_step
-
-    def length_ratio(self, step: int) -> float:
-        """Give the blade length at a step over the initial one (section 4.2.3)."""
-        if step >= self._last_step:
-            return max(self.final_length, self.blade.length) / self.blade.length
-        length = min(self.final_length, self.blade.length + step * self.length_per_step)
-        return length / self.blade.length
-
-
-class LinearGrowthParameters(Parameters):
-    """What the growths with a constant increase of length have in common."""
-
-    final_length: float = quantity(
-        "Blade length at which growth ends (L_f in Table 4.1).", unit="D", gt=0.0
-    )
-    length_per_step: float = quantity(
-        "Increase of the blade length in one step (Delta L in Table 4.1).", unit="D", gt=0.0
-    )
+    if n_steps > MOST_STEPS:
+        raise ConfigError(
+            f"{key} = {value:g}: growth would take {n_steps:.3g} steps; allowed are {MOST_STEPS:,}"
+        )
+    return math.ceil(n_steps)

@@ -3,7 +3,7 @@
 from typing import Literal
 
 from vasc.domain import Blade
-from vasc.growth.base import LinearGrowth, LinearGrowthParameters
+from vasc.growth.linear import LinearGrowth, LinearGrowthParameters
 
 
 class IsogonicGrowth(LinearGrowth):

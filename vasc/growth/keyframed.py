@@ -8,10 +8,8 @@ from numpy.typing import NDArray
 from vasc import kernels
 from vasc.arrays import Floats, Points
 from vasc.errors import ConfigError
-from vasc.growth.base import MARGIN_SPACING, MOST_STEPS, Deformation
-
-N_COLUMNS = 5
-"""Control points across the blade; with five, a row bends as a parabola does."""
+from vasc.growth.base import MARGIN_SPACING, Deformation, last_step_of
+from vasc.growth.surfaces import N_COLUMNS
 
 CHECKED = (21, 121)
 """Points across and along the half blade at which the surface must not fold."""
@@ -45,12 +43,7 @@ class KeyframedGrowth(Deformation):
         self.step_duration = step_duration
         self._latest_rows: tuple[int, NDArray[np.float64]] | None = None
         n_steps = float(times[-1]) / step_duration
-        if n_steps > MOST_STEPS:
-            raise ConfigError(
-                f"growth.step_duration = {step_duration:g}: growth would take {n_steps:.3g}"
-                f" steps; allowed are {MOST_STEPS:,}"
-            )
-        self._last_step = int(n_steps) + (int(n_steps) < n_steps)
+        self._last_step = last_step_of(n_steps, "growth.step_duration", step_duration)
         self.surface = kernels.bspline.surface(frames.shape[2], N_COLUMNS)
         self._refuse_folds()
         margin, n_base = self._margin()
@@ -146,7 +139,7 @@ class KeyframedGrowth(Deformation):
                 span = self.times[min(index + 1, len(self.times) - 1)] - self.times[index]
                 time = self.times[index] + shares[worst] * span
                 raise ConfigError(
-                    f"growth.frames: the surface folds at time {time:.4g} at c ="
+                    f"growth: the surface folds at time {time:.4g} at c ="
                     f" {points[worst, 0]:.3g} (0 midline, 1 margin), v ="
                     f" {points[worst, 1]:.3g} (0 base, 1 tip): the"
                     f" areal stretch is {least[worst]:.3g} there; it must be above 0 at all times"

@@ -9,7 +9,12 @@ from pydantic import model_validator
 
 from vasc.arrays import Floats
 from vasc.growth.keyframed import KeyframedGrowth
-from vasc.growth.outline_frames import LandmarkParameters, OutlineFrames, OutlineParameters
+from vasc.growth.outline_frames import (
+    LandmarkParameters,
+    OutlineParameters,
+    check_outlines,
+    fit_outlines,
+)
 from vasc.parameters import Parameters, quantity
 
 
@@ -75,7 +80,7 @@ class KeyframedParameters(Parameters):
         if bool(self.frames) == bool(self.outlines):
             raise ValueError("give either 'frames' or 'outlines'")
         if self.outlines:
-            self._traced()
+            check_outlines(self.outlines, self.landmarks)
             return self
         if self.landmarks:
             raise ValueError("'landmarks' need 'outlines'; 'frames' say where all tissue is")
@@ -109,7 +114,13 @@ class KeyframedParameters(Parameters):
             If an outline cannot be read, or key-frames cannot follow it.
         """
         if self.outlines:
-            return self._traced().keyframes(folder)
+            return fit_outlines(
+                self.outlines,
+                self.landmarks,
+                folder,
+                n_rows=self.n_rows,
+                tolerance=self.tolerance,
+            ).frames
         return [(frame.time, np.array(frame.rows, dtype=np.float64)) for frame in self.frames]
 
     def growth(self, folder: Path = Path()) -> KeyframedGrowth:
@@ -125,12 +136,3 @@ class KeyframedParameters(Parameters):
         times = np.array([time for time, _ in frames])
         rows = np.ascontiguousarray([control.T for _, control in frames])
         return KeyframedGrowth(times, rows, self.step_duration)
-
-    def _traced(self) -> OutlineFrames:
-        """Give the outlines and what is to be fitted to them."""
-        return OutlineFrames(
-            outlines=self.outlines,
-            landmarks=self.landmarks,
-            n_rows=self.n_rows,
-            tolerance=self.tolerance,
-        )

@@ -1,9 +1,6 @@
 """Local-to-global growth: every height has a stretch of its own (Runions 2008, section 5.1)."""
 
-import csv
-import math
 from functools import cached_property
-from itertools import pairwise
 from pathlib import Path
 from typing import Literal
 
@@ -13,14 +10,11 @@ from pydantic import model_validator
 from vasc.arrays import Floats, Points
 from vasc.domain import Blade
 from vasc.errors import ConfigError
-from vasc.growth.base import MOST_STEPS, Deformation
+from vasc.growth.base import MOST_STEPS, Deformation, last_step_of
 from vasc.growth.margins import MOST_CHECKS, dense, from_base
 from vasc.growth.stretch import N_SAMPLES, AxialStretch, roots, smooth_table
+from vasc.growth.stretch_table import check_table, read_table
 from vasc.parameters import Parameters, quantity
-
-MOST_INCREASE = 1000.0
-"""Largest relative increase in a unit of time."""
-COLUMNS = ("height", "g_x", "g_y")
 
 
 class LocalToGlobalGrowth(Deformation):
@@ -68,11 +62,13 @@ class LocalToGlobalGrowth(Deformation):
         g_x: Floats,
         g_y: Floats,
         *,
-        steps_per_unit: int = 100,
-        end: float = 6.0,
+        steps_per_unit: int,
+        end: float,
     ) -> None:
         self.steps_per_unit = steps_per_unit
-        self._last_step = last_step_of(end, steps_per_unit)
+        # a time that is meant to be whole in steps may be a hair above
+        n_steps = (1.0 - 1e-9) * (end * steps_per_unit)
+        self._last_step = last_step_of(n_steps, "growth.end", end)
         if len(blade.rings) != 1:
             raise ConfigError(
                 f"domain: the outline has {len(blade.rings)} rings;"
@@ -134,24 +130,6 @@ class LocalToGlobalGrowth(Deformation):
     def time(self, step: int) -> float:
         """Give the model time of a step, in units of the rates."""
         return step / self.steps_per_unit
-
-
-def last_step_of(end: float, steps_per_unit: int) -> int:
-    """Give the first step at or after a time.
-
-    Raises
-    ------
-    ConfigError
-        If that is beyond ``MOST_STEPS``.
-    """
-    n_steps = end * steps_per_unit
-    if n_steps > MOST_STEPS:
-        raise ConfigError(
-            f"growth.end = {end:g}: growth would take {n_steps:.3g} steps;"
-            f" allowed are {MOST_STEPS:,}"
-        )
-    # a time that is meant to be whole in steps may be a hair above
-    return math.ceil(n_steps - 1e-9 * n_steps)
 
 
 class LocalToGlobalParameters(Parameters):
@@ -222,65 +200,3 @@ class LocalToGlobalParameters(Parameters):
             steps_per_unit=self.steps_per_unit,
             end=self.end,
         )
-
-
-def check_table(heights: list[float], g_x: list[float], g_y: list[float]) -> None:
-    """Make sure that a table says for ascending heights what is above -1.
-
-    Raises
-    ------
-    ValueError
-        If not; the message names column, row and what is allowed.
-    """
-    for key, values in (("g_x", g_x), ("g_y", g_y)):
-        if len(values) != len(heights):
-            raise ValueError(
-                f"'{key}' holds {len(values)} values; it must have one for each of the"
-                f" {len(heights)} heights"
-            )
-        for row, value in enumerate(values):
-            if not -1.0 < value <= MOST_INCREASE:
-                raise ValueError(
-                    f"{key}[{row}] is {value:g}; it must be above -1 and at most {MOST_INCREASE:g}"
-                )
-    if len(heights) < 2:
-        raise ValueError(f"'heights' holds {len(heights)} values; at least 2 are needed")
-    for row, value in enumerate(heights):
-        if not 0.0 <= value <= 1.0:
-            raise ValueError(f"heights[{row}] is {value:g}; it must be from 0 to 1")
-    for row, (before, value) in enumerate(pairwise(heights), 1):
-        if value <= before:
-            raise ValueError(
-                f"heights[{row}] is {value:g}; heights must ascend, and the one before is"
-                f" {before:g}"
-            )
-
-
-def read_table(path: Path) -> tuple[list[float], list[float], list[float]]:
-    """Read a table from a CSV file with columns height, g_x and g_y.
-
-    Raises
-    ------
-    ConfigError
-        If the file cannot be read, or does not hold such a table.
-    """
-    try:
-        with path.open(newline="", encoding="utf-8-sig") as stream:
-            rows = list(csv.DictReader(stream, skipinitialspace=True))
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise ConfigError(f"growth.file: cannot read {str(path)!r}: {error}") from error
-    table: tuple[list[float], list[float], list[float]] = ([], [], [])
-    for number, row in enumerate(rows, start=2):
-        try:
-            for column, name in zip(table, COLUMNS, strict=True):
-                column.append(float(row[name]))
-        except (KeyError, TypeError, ValueError) as error:
-            raise ConfigError(
-                f"growth.file: line {number} of {str(path)!r} is {row!r:.80}; allowed are"
-                " columns height, g_x and g_y, all numbers"
-            ) from error
-    try:
-        check_table(*table)
-    except ValueError as error:
-        raise ConfigError(f"growth.file: {str(path)!r}: {error}") from error
-    return table

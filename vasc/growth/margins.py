@@ -70,7 +70,7 @@ def is_mirrored(margin: Margin) -> bool:
 def dense(
     margin: Margin, position: Callable[[Points, int], Points], steps: Sequence[int]
 ) -> Margin:
-    """Add points to an outline, so that neighbours are near each other at every step.
+    """Add points to an outline, so that neighbors are near each other at every step.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def _refined(
 ) -> tuple[Points, NDArray[np.bool_]]:
     """Split the pieces of a line until none is too long at any step."""
     n_before = 0
-    # a point added for one step may be far from its neighbours at another
+    # a point added for one step may be far from its neighbors at another
     while n_before < len(line):
         n_before = len(line)
         for step in steps:

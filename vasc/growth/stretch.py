@@ -27,7 +27,7 @@ def smooth_table(heights: Floats, rates: Floats, at: Floats) -> Floats:
     Returns
     -------
     ndarray of shape (n,), float64
-        Never beyond the two neighbouring values of the table.
+        Never beyond the two neighboring values of the table.
 
     References
     ----------

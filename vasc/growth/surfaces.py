@@ -1,9 +1,7 @@
 """Spline surfaces of growing leaves: their control rows from outlines and landmarks by age.
 
-A surface maps (c, v), c from -1 to 1 across and v from 0 to 1 along the leaf, to
-``x = c W(v)`` and ``y = Y(v) + S(v) Q(c)``: W, Y and S are cubic splines with the
-control values w, y and s of the rows, and Q is that with the squares of -1, -2/3,
-0, 2/3, 1. This is the tensor product of the key-framed growth, written out.
+The surface is that of :mod:`vasc.kernels.bspline`, which runs evaluate point by point; a fit
+needs the weights of the rows as matrices, and derivatives by the rows, which no run asks for.
 """
 
 from dataclasses import dataclass
@@ -12,26 +10,20 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vasc import kernels
 from vasc.arrays import Floats, Points
 
-COLUMNS = np.array([-1.0, -2.0 / 3.0, 0.0, 2.0 / 3.0, 1.0])
-"""Where the columns of control points are, in c."""
-
-
-def knots(n: int, low: float, high: float) -> Floats:
-    """Give clamped uniform knots for n cubic control values."""
-    inner = np.linspace(low, high, n - 2)[1:-1]
-    return np.concatenate([np.full(4, low), inner, np.full(4, high)])
+N_COLUMNS = 5
+"""Control points across the blade; with five, a row bends as a parabola does."""
 
 
 def heights_of_rows(n_rows: int) -> Floats:
-    """Give the v of every row at which a spline of these values is v itself (Greville)."""
-    line = knots(n_rows, 0.0, 1.0)
-    return (line[1 : n_rows + 1] + line[2 : n_rows + 2] + line[3 : n_rows + 3]) / 3.0
+    """Give the heights of even rows, with which a place is as high as its v, shape (n_rows,)."""
+    return kernels.bspline.abscissae(kernels.bspline.clamped_knots(n_rows))
 
 
 def arch(c: ArrayLike, derivative: int = 0) -> Floats:
-    """Give Q(c), the share of a row's rise that a place across the leaf has.
+    """Give q(c), the share of a row's rise that a place across the leaf has, or a derivative.
 
     Examples
     --------
@@ -40,8 +32,10 @@ def arch(c: ArrayLike, derivative: int = 0) -> Floats:
     """
     from scipy.interpolate import BSpline
 
-    curve = BSpline(knots(5, -1.0, 1.0), COLUMNS * COLUMNS, 3)
-    return curve(np.clip(c, -1.0, 1.0), nu=derivative)
+    shape = kernels.bspline.surface(kernels.bspline.DEGREE + 1, N_COLUMNS)
+    curve = BSpline(shape.arch_knots, shape.arch, kernels.bspline.DEGREE)
+    # u = (1 + c) / 2
+    return 0.5**derivative * curve(0.5 * (1.0 + np.clip(c, -1.0, 1.0)), nu=derivative)
 
 
 @dataclass(frozen=True)
@@ -131,8 +125,12 @@ class Places:
         """Give the cubic B-splines at every point."""
         from scipy.interpolate import BSpline
 
-        line = knots(self.n_rows, 0.0, 1.0)
-        return BSpline(line, np.eye(self.n_rows), 3)(np.clip(self.v, 0.0, 1.0), nu=derivative)
+        basis = BSpline(
+            kernels.bspline.clamped_knots(self.n_rows),
+            np.eye(self.n_rows),
+            kernels.bspline.DEGREE,
+        )
+        return basis(np.clip(self.v, 0.0, 1.0), nu=derivative)
 
 
 def margin_places(n_rows: int, n_side: int = 60, n_top: int = 20) -> Places:

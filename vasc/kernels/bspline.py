@@ -45,11 +45,15 @@ def clamped_knots(n_controls: int) -> NDArray[np.float64]:
     return np.concatenate([np.zeros(DEGREE + 1), inner, np.ones(DEGREE + 1)])
 
 
+def abscissae(knots: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Give the Greville abscissae: with these control values, a spline is its parameter."""
+    return (knots[1:-3] + knots[2:-2] + knots[3:-1]) / 3.0
+
+
 def surface(n_rows: int, n_columns: int) -> Surface:
     """Make the surface of a number of control rows and columns, at least four of each."""
     knots = clamped_knots(n_columns)
-    greville = (knots[1:-3] + knots[2:-2] + knots[3:-1]) / 3.0
-    return Surface(clamped_knots(n_rows), knots, (2.0 * greville - 1.0) ** 2)
+    return Surface(clamped_knots(n_rows), knots, (2.0 * abscissae(knots) - 1.0) ** 2)
 
 
 @unowned

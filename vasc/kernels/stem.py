@@ -37,6 +37,9 @@ MERGE = 1e-3
 STILL = 1e-6
 """A sum of unit vectors shorter than this has no direction."""
 
+ROOM = 256
+"""Nodes and segments that a stem has room for at first."""
+
 
 class Stem(NamedTuple):
     """Vein nodes of a stem, segments and active pairs."""
@@ -63,7 +66,7 @@ class Stem(NamedTuple):
     """Circumference if distances are along the surface, 0 if they are straight."""
 
 
-def stem(length: float, period: float = 0.0, n_nodes: int = 256, n_edges: int = 256) -> Stem:
+def stem(length: float, period: float = 0.0) -> Stem:
     """Make a stem without nodes, with room for some.
 
     Parameters
@@ -73,22 +76,20 @@ def stem(length: float, period: float = 0.0, n_nodes: int = 256, n_edges: int = 
     period : float
         Circumference of the surface on which distances are taken; 0 for straight
         distances in space.
-    n_nodes, n_edges : int
-        Nodes and segments there is room for at first.
 
     Returns
     -------
     Stem
-        The empty stem.
+        The empty stem; it gets more room when it needs it.
     """
     return Stem(
-        positions=np.zeros((n_nodes, 3)),
-        parents=np.full(n_nodes, -1, dtype=np.int32),
-        edges=np.full((n_edges, 2), -1, dtype=np.int32),
-        newest=np.full(n_nodes, -1, dtype=np.int32),
-        following=np.full(2 * n_edges, -1, dtype=np.int32),
+        positions=np.zeros((ROOM, 3)),
+        parents=np.full(ROOM, -1, dtype=np.int32),
+        edges=np.full((ROOM, 2), -1, dtype=np.int32),
+        newest=np.full(ROOM, -1, dtype=np.int32),
+        following=np.full(2 * ROOM, -1, dtype=np.int32),
         pairs=np.empty((0, 2), dtype=np.int32),
-        tree=octree(CELL_SIDE * length, n_nodes),
+        tree=octree(CELL_SIDE * length, ROOM),
         n_nodes=0,
         n_edges=0,
         period=float(period),
@@ -130,27 +131,28 @@ def join(old: Stem, joints: NDArray[np.int32]) -> Stem:
 def place(
     old: Stem, positions: NDArray[np.float64], parents: NDArray[np.int32] | None = None
 ) -> Stem:
-    """Add nodes that are not joined to anything yet, and put them into the index."""
+    """Add nodes that are not joined to anything yet, and put them into the index.
+
+    Parameters
+    ----------
+    old : Stem
+        The stem.
+    positions : ndarray of shape (k, 3), float64
+        Places of the new nodes, whose ids follow those of the old ones.
+    parents : ndarray of shape (k,), int32, optional
+        Nodes that they grew from; none of them grew if left out.
+
+    Returns
+    -------
+    Stem
+        To be followed by ``insert``.
+    """
     start, stop = old.n_nodes, old.n_nodes + len(positions)
     new = reserve(old, stop, 0)
     new.positions[start:stop] = positions
     if parents is not None:
         new.parents[start:stop] = parents
     return new._replace(n_nodes=stop, tree=insert_points(new.tree, new.positions, start, stop))
-
-
-def restored(
-    positions: NDArray[np.float64],
-    parents: NDArray[np.int32],
-    edges: NDArray[np.int32],
-    pairs: NDArray[np.int32],
-    length: float,
-    period: float = 0.0,
-) -> Stem:
-    """Make a stem of recorded rows; it goes on to the same bytes as the one they are from."""
-    empty = stem(length, period, len(positions), len(edges))
-    joined = join(place(empty, positions, parents), edges)
-    return joined._replace(pairs=np.ascontiguousarray(pairs, dtype=np.int32).reshape(-1, 2))
 
 
 @compiled
@@ -164,7 +166,20 @@ def lasting_pairs(
     following: NDArray[np.int32],
     period: float,
 ) -> NDArray[np.int32]:
-    """Give the pairs that are not joined and whose open lune has none of the new nodes in it."""
+    """Give the pairs that are not joined and whose open lune has none of the new nodes in it.
+
+    Parameters
+    ----------
+    positions, pairs, edges, newest, following, period
+        Parts of a :class:`Stem`.
+    start, stop : int
+        Ids of the new nodes.
+
+    Returns
+    -------
+    ndarray of shape (k, 2), int32
+        Rows of ``pairs`` in their order.
+    """
     kept = np.empty_like(pairs)
     n_kept = 0
     for row in range(len(pairs)):
@@ -194,7 +209,22 @@ def divide(
     length: float,
     period: float,
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Divide new pairs into those to be joined, nearer than a segment is long, and active ones."""
+    """Divide new pairs into those to be joined, nearer than a segment is long, and active ones.
+
+    Parameters
+    ----------
+    positions, edges, newest, following, period
+        Parts of a :class:`Stem`.
+    found : ndarray of shape (n, 2), int32
+        Relative neighbours; those that a segment joins already are left out.
+    length : float
+        Length of a segment.
+
+    Returns
+    -------
+    near, far : ndarray of shape (k, 2), int32
+        Rows of ``found`` in their order.
+    """
     near, far = np.empty_like(found), np.empty_like(found)
     n_near = n_far = 0
     limit = length * (1.0 + MARGIN)
@@ -297,8 +327,25 @@ def children(
     """Give places and parents of new nodes, and who is to be joined to whom.
 
     A new node that would lie on a node, old or just made, is not made: the two are
-    joined. New nodes have the ids from ``n_nodes`` on; rows of the last array are a
-    tip and the node it comes to.
+    joined.
+
+    Parameters
+    ----------
+    tree, positions, n_nodes, period
+        Parts of a :class:`Stem`.
+    tips, sums : ndarray
+        What ``directions`` gave.
+    length : float
+        Length of a segment.
+
+    Returns
+    -------
+    places : ndarray of shape (k, 3), float64
+        Of new nodes, whose ids are those from ``n_nodes`` on.
+    parents : ndarray of shape (k,), int32
+        Nodes that they grow from.
+    joints : ndarray of shape (m, 2), int32
+        Rows of a tip and the node that it comes to.
     """
     places = np.empty((len(tips), 3))
     parents = np.empty(len(tips), dtype=np.int32)

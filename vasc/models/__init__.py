@@ -1,8 +1,9 @@
 """Models of vascular development: each a choice of parts for one sentence."""
 
 from vasc.models.areole import AreoleVenation
-from vasc.models.base import LeafVenation, Model, Venation
+from vasc.models.base import Model
 from vasc.models.closed import ClosedVenation
+from vasc.models.leaf import LeafVenation, Venation
 from vasc.models.open import OpenVenation
 from vasc.models.stem import StemVasculature
 from vasc.parameters import Parameters

@@ -3,6 +3,7 @@
 from abc import ABC, abstractmethod
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vasc import kernels
 from vasc.arrays import Ids
@@ -34,7 +35,7 @@ class Arrival(ABC):
         return False
 
     @staticmethod
-    def remove(veins: Vasculature, step: int, reached: Ids, is_joined: np.ndarray) -> None:
+    def remove(veins: Vasculature, step: int, reached: Ids, is_joined: NDArray[np.bool_]) -> None:
         """Let reached sources die, and note which veins ended at them alone."""
         if len(reached) == 0:
             return

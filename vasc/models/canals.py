@@ -1,4 +1,4 @@
-"""Canals: polarized tissue between a source and its relative neighbours (Runions 2008, 5.2.3)."""
+"""Canals: polarized tissue between a source and its relative neighbors (Runions 2008, 5.2.3)."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from vasc import kernels
-from vasc.arrays import NULL, Ids, Table
+from vasc.arrays import NULL, Floats, Ids, Points
+from vasc.canals import CANAL_TABLES, canals_from_columns
 from vasc.events import EventKind
 from vasc.models.perception import Cut, Perception
 from vasc.network import Origin
@@ -19,6 +20,7 @@ ROUNDING = 1e-6
 """Distances from a source that differ by less, in D, are equal."""
 
 UNDER_WAY = (CanalState.INBOUND, CanalState.OUTBOUND)
+ENDED = (CanalState.VEIN, CanalState.ARRESTED)
 
 
 @dataclass
@@ -42,7 +44,7 @@ class Canals:
     Attributes
     ----------
     by_source : dict of int to list of Canal
-        Canals of a source, in the order of its relative neighbours.
+        Canals of a source, in the order of its relative neighbors.
     drained : dict of int to int
         The vein node that each source drained in the last step became.
     """
@@ -60,7 +62,7 @@ class Canals:
         check_transitions(Kind.CANAL, canal.state, state)
         canal.state = state
         veins.log_states(step, np.array([canal.id], dtype=np.int32), state, Kind.CANAL)
-        if state in (CanalState.VEIN, CanalState.ARRESTED):
+        if state in ENDED:
             remaining = [other for other in self.by_source[canal.source] if other is not canal]
             self.by_source[canal.source] = remaining
             if not remaining:
@@ -68,7 +70,7 @@ class Canals:
 
 
 class CanalPerception(Perception[Canals]):
-    """Relative neighbours are perceived when a source is born, and stored as canals.
+    """Relative neighbors are perceived when a source is born, and stored as canals.
 
     Only the canal of the closest of them differentiates at once, toward the
     source; the others do so away from it, once it is drained.
@@ -130,7 +132,7 @@ class CanalPerception(Perception[Canals]):
                     veins.log(moment.step, EventKind.CANAL_RETARGETED, canal.id, canal.node)
 
     def _induce(self, veins: Vasculature, moment: Moment, source: int) -> None:
-        """Store the canals of a new source; that of its closest relative neighbour begins."""
+        """Store the canals of a new source; that of its closest relative neighbor begins."""
         nodes, distances = relative_neighbors(veins, veins.places("sources")[source])
         table = veins.tables["perceived"]
         rows = table.append(step=moment.step, source=source, node=nodes)
@@ -144,11 +146,11 @@ class CanalPerception(Perception[Canals]):
         # leaning laterals part from the older loops: sources on the margin then lose them
         is_marginal = veins.sources.arrays["cause"][source] == Cause.MARGIN
         lean = 0.0 if is_marginal else self.lean
-        closest.tip = toward_base(veins, closest.node, lean * float(distances[row]))
+        closest.tip = _toward_base(veins, closest.node, lean * float(distances[row]))
         self.canals.change(veins, moment.step, closest, CanalState.INBOUND)
 
-    def _closest(self, veins: Vasculature, nodes: Ids, distances: np.ndarray) -> int:
-        """Give the row of the closest neighbour; of equals that of the oldest vein, the lowest."""
+    def _closest(self, veins: Vasculature, nodes: Ids, distances: Floats) -> int:
+        """Give the row of the closest neighbor; of equals that of the oldest vein, the lowest."""
         rows = np.flatnonzero(distances <= distances.min() + self.tie)
         places = veins.places("nodes")[nodes[rows]]
         # the seed and the first vein count as one
@@ -158,47 +160,31 @@ class CanalPerception(Perception[Canals]):
 
     def restore(self, veins: Vasculature) -> None:
         """Put back the canals that a record describes."""
-        perceived, states = veins.tables["perceived"], veins.tables["states"]
-        events = veins.tables["events"]
-        is_canal = states.view("what") == Kind.CANAL
-        current = dict(
-            zip(states.view("id")[is_canal].tolist(), states.view("state")[is_canal].tolist(),
-                strict=True)
-        )  # fmt: skip
-        tips = latest(events, EventKind.STRAND_EXTENDED)
-        nodes = latest(events, EventKind.CANAL_RETARGETED)
-        is_source = veins.nodes.view("origin") == Origin.SOURCE
-        owners = veins.nodes.view("source")[is_source].tolist()
+        tables = {
+            table: {name: veins.tables[table].view(name) for name in columns}
+            for table, columns in CANAL_TABLES.items()
+        }
+        found = canals_from_columns(tables, veins.sources.view("position"))
+        is_source = tables["nodes"]["origin"] == Origin.SOURCE
+        owners = tables["nodes"]["source"][is_source].tolist()
         became = dict(zip(owners, np.flatnonzero(is_source).tolist(), strict=True))
-        pairs = zip(perceived.view("source").tolist(), perceived.view("node").tolist(), strict=True)
-        for row, (source, node) in enumerate(pairs):
-            state = CanalState(current[row])
-            if state in (CanalState.VEIN, CanalState.ARRESTED):
+        columns = (found.ids, found.sources, found.nodes, found.states, found.tips)
+        for row, source, node, code, tip in zip(*(c.tolist() for c in columns), strict=True):
+            state = CanalState(code)
+            if state in ENDED:
                 continue
-            start = became.get(source, node)
-            tip = tips.get(row, start) if state in UNDER_WAY else NULL
-            canal = Canal(row, source, nodes.get(row, node), state, tip)
+            canal = Canal(row, source, node, state, tip)
             self.canals.by_source.setdefault(source, []).append(canal)
             if state == CanalState.PRE_PATTERN and source in became:
                 self.canals.drained[source] = became[source]
         self._n_sources = veins.sources.n_rows
 
 
-def latest(events: Table, kind: EventKind) -> dict[int, int]:
-    """Give the last object of each subject among the events of a kind."""
-    rows = events.view("kind") == kind
-    return dict(
-        zip(
-            events.view("subject")[rows].tolist(), events.view("object")[rows].tolist(), strict=True
-        )
-    )
-
-
-def relative_neighbors(veins: Vasculature, place: np.ndarray) -> tuple[Ids, np.ndarray]:
-    """Give the relative neighbours of a place among the vein nodes, nearest first.
+def relative_neighbors(veins: Vasculature, place: Points) -> tuple[Ids, Floats]:
+    """Give the relative neighbors of a place among the vein nodes, nearest first.
 
     Ties are resolved by height and distance from the midline, so that a leaf and
-    its mirror image have mirrored neighbours.
+    its mirror image have mirrored neighbors.
 
     Returns
     -------
@@ -216,7 +202,7 @@ def relative_neighbors(veins: Vasculature, place: np.ndarray) -> tuple[Ids, np.n
     return nodes[rows], distances[rows]
 
 
-def toward_base(veins: Vasculature, node: int, length: float) -> int:
+def _toward_base(veins: Vasculature, node: int, length: float) -> int:
     """Give the node that lies a length from another one along its vein, nearer to a seed.
 
     The walk ends where veins branch.

@@ -6,8 +6,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from vasc.models.arrival import TaggedArrivalParameters
-from vasc.models.base import Venation
 from vasc.models.colonization import Colonization
+from vasc.models.leaf import Venation
 from vasc.models.perception import Attraction, RelativeParameters, UrquhartParameters
 from vasc.parameters import quantity
 

@@ -9,7 +9,7 @@ from vasc.arrays import NULL
 from vasc.events import EventKind, StopReason
 from vasc.growth import Growth
 from vasc.models.arrival import Arrival
-from vasc.models.base import Model
+from vasc.models.base import Model, newest
 from vasc.models.extension import Extension
 from vasc.models.perception import A, Perception
 from vasc.models.refinement import Refinement
@@ -44,7 +44,7 @@ class Colonization(Model, Generic[A]):
 
     def advance(self, state: State, streams: Streams) -> State:
         """Advance one step: grow, place, perceive, extend, reach."""
-        veins = self.veins_of(state)
+        veins = newest(state, Vasculature)
 
         # grow: the blade expands and carries veins and sources with it
         moment = self.grow(veins, state.step + 1, streams)
@@ -161,17 +161,3 @@ class Colonization(Model, Generic[A]):
         wanted = 0.4 * self.placement.spacing
         length = self.extension.segment_length
         return float(np.clip(wanted, 2.0 * length, 8.0 * length))
-
-    @staticmethod
-    def veins_of(state: State) -> Vasculature:
-        """Give the buffers of a state, which must be the newest of its run.
-
-        Raises
-        ------
-        ValueError
-            If the state has a successor already.
-        """
-        veins = state.index
-        if not isinstance(veins, Vasculature) or veins.tables.counts() != state.counts:
-            raise ValueError(f"the state of step {state.step} has been advanced already")
-        return veins

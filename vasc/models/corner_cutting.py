@@ -144,7 +144,7 @@ class Corners:
         return found.astype(np.int32)
 
     def cut(self, node: int, limit: float) -> None:
-        """Replace a node by two, unless cuts of its neighbours have made it short."""
+        """Replace a node by two, unless cuts of its neighbors have made it short."""
         older, newer = self._around[node]
         before, after = self._ends_of(older), self._ends_of(newer)
         first_end, second_end = _other(before, node), _other(after, node)
@@ -164,7 +164,7 @@ class Corners:
         self._replace(second_end, newer, _with(after, node, cut.second))
 
     def _replace(self, neighbor: int, segment: int, ends: tuple[int, int]) -> None:
-        """Add a segment that takes the place of another one at a neighbour."""
+        """Add a segment that takes the place of another one at a neighbor."""
         new = self._n_segments + len(self.segments)
         self.segments.append(ends)
         if neighbor in self._around:

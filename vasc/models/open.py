@@ -4,8 +4,8 @@ from pathlib import Path
 from typing import Literal
 
 from vasc.models.arrival import FirstArrival
-from vasc.models.base import Venation
 from vasc.models.colonization import Colonization
+from vasc.models.leaf import Venation
 from vasc.models.perception import Attraction, NearestParameters
 from vasc.parameters import quantity
 

@@ -80,8 +80,8 @@ class Subdivision(Refinement):
         due = np.searchsorted(self._scales, self.longest / lengths, side="right")
         is_ever = due < len(self._scales)
         due = np.maximum(due[is_ever], step + 1)
-        for moment in np.unique(due).tolist():
-            self._due.setdefault(moment, []).append(ids[is_ever][due == moment])
+        for then in np.unique(due).tolist():
+            self._due.setdefault(then, []).append(ids[is_ever][due == then])
 
 
 class DeformedSubdivision(Refinement):

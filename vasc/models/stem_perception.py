@@ -1,7 +1,7 @@
 """Which nodes of a stem perceive each other, and how they grow (Runions 2008, section 6.2.1)."""
 
 from abc import ABC, abstractmethod
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,9 @@ from vasc import kernels
 from vasc.domain import StemParameters
 from vasc.errors import ConfigError
 from vasc.parameters import Parameters, quantity
+
+if TYPE_CHECKING:
+    from vasc.kernels.stem import Stem
 
 
 class StemPerception(ABC):
@@ -25,14 +28,14 @@ class StemPerception(ABC):
         self.segment_length = segment_length
 
     @abstractmethod
-    def stem(self) -> "kernels.stem.Stem":  # type: ignore[name-defined]
+    def stem(self) -> "Stem":
         """Give a stem without nodes."""
 
     @abstractmethod
-    def perceive(self, stem: "kernels.stem.Stem", start: int) -> "kernels.stem.Stem":  # type: ignore[name-defined]
+    def perceive(self, stem: "Stem", start: int) -> "Stem":
         """Bring active pairs up to date with the nodes from ``start`` on, and join the near."""
 
-    def extend(self, stem: "kernels.stem.Stem") -> "kernels.stem.Stem":  # type: ignore[name-defined]
+    def extend(self, stem: "Stem") -> "Stem":
         """Let every node of an active pair grow one segment toward its partners."""
         tips, sums = kernels.stem.directions(stem)
         return kernels.stem.extend(stem, tips, sums, self.segment_length)
@@ -49,11 +52,11 @@ class StemPerception(ABC):
 class ChordPerception(StemPerception):
     """Relative neighbours by straight distances in space (equation 4.1 in three dimensions)."""
 
-    def stem(self) -> "kernels.stem.Stem":  # type: ignore[name-defined]
+    def stem(self) -> "Stem":
         """Give a stem without nodes."""
         return kernels.stem.stem(self.segment_length)
 
-    def perceive(self, stem: "kernels.stem.Stem", start: int) -> "kernels.stem.Stem":  # type: ignore[name-defined]
+    def perceive(self, stem: "Stem", start: int) -> "Stem":
         """Find the relative neighbours of new nodes."""
         return kernels.stem.insert(stem, start, self.segment_length)
 
@@ -61,7 +64,7 @@ class ChordPerception(StemPerception):
 class UrquhartStemPerception(ChordPerception):
     """Common neighbours in a Delaunay triangulation, an approximation (section 4.4.2)."""
 
-    def perceive(self, stem: "kernels.stem.Stem", start: int) -> "kernels.stem.Stem":  # type: ignore[name-defined]
+    def perceive(self, stem: "Stem", start: int) -> "Stem":
         """Find all pairs anew."""
         return kernels.urquhart_3d.insert(stem, start, self.segment_length)
 
@@ -82,11 +85,11 @@ class SurfacePerception(StemPerception):
         self.radius = radius
         self.period = kernels.cylinder.circumference(radius)
 
-    def stem(self) -> "kernels.stem.Stem":  # type: ignore[name-defined]
+    def stem(self) -> "Stem":
         """Give a stem without nodes."""
         return kernels.stem.stem(self.segment_length, self.period)
 
-    def perceive(self, stem: "kernels.stem.Stem", start: int) -> "kernels.stem.Stem":  # type: ignore[name-defined]
+    def perceive(self, stem: "Stem", start: int) -> "Stem":
         """Find the relative neighbours of new nodes."""
         return kernels.stem.insert(stem, start, self.segment_length)
 

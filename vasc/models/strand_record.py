@@ -1,6 +1,9 @@
 """The nodes, segments and primordia of a stem, as rows of the tables of its run."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
+from numpy.typing import NDArray
 
 from vasc import kernels
 from vasc.arrays import NULL, Ids
@@ -10,6 +13,9 @@ from vasc.network import Origin, SegmentKind
 from vasc.placement import Phyllotaxis
 from vasc.sources import Cause
 from vasc.state import Tables
+
+if TYPE_CHECKING:
+    from vasc.kernels.stem import Stem
 
 MOST_RING_NODES = 1_000_000
 """Nodes of the ring at most; each takes about 200 bytes, and one segment."""
@@ -37,7 +43,7 @@ class StrandRecord:
         self,
         tables: Tables,
         phyllotaxis: Phyllotaxis,
-        stem: "kernels.stem.Stem",  # type: ignore[name-defined]
+        stem: "Stem",
     ) -> None:
         self.tables = tables
         self.phyllotaxis = phyllotaxis
@@ -47,13 +53,33 @@ class StrandRecord:
         self._roots: list[int] = []
 
     def add_ring(self, radius: float, length: float, perception: StemPerception) -> None:
-        """Begin with the ring of the hypocotyl: nodes not farther apart than a segment is long."""
+        """Begin with the ring of the hypocotyl: nodes not farther apart than a segment is long.
+
+        Parameters
+        ----------
+        radius, length : float
+            Radius of the ring and length of a segment, in D.
+        perception : StemPerception
+            Tells the places between which distances are taken.
+        """
         positions = kernels.cylinder.ring(radius, length)
         self.stem = kernels.stem.place(self.stem, perception.places(positions), None)
         self.ring = np.arange(len(positions), dtype=np.int32)
 
-    def add_primordia(self, step: int, numbers: np.ndarray, perception: StemPerception) -> None:
-        """Let primordia appear; each is a source and a node."""
+    def add_primordia(
+        self, step: int, numbers: NDArray[np.intp], perception: StemPerception
+    ) -> None:
+        """Let primordia appear; each is a source and a node.
+
+        Parameters
+        ----------
+        step : int
+            The step in which they appear.
+        numbers : ndarray of shape (k,), integer
+            Which primordia, in the order of birth; none if empty.
+        perception : StemPerception
+            Tells the places between which distances are taken.
+        """
         if len(numbers) == 0:
             return
         places = self.phyllotaxis.places[numbers]

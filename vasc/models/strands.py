@@ -3,13 +3,14 @@
 import numpy as np
 
 from vasc import kernels
-from vasc.arrays import NULL, Points
+from vasc.arrays import NULL, Ids, Points
 from vasc.events import EventKind
-from vasc.models.areolation import Areolation
+from vasc.models.areolation import divide_tissue, enclose_sources
 from vasc.models.arrival import Arrival
 from vasc.models.canals import Canal, Canals
 from vasc.models.extension import Extension
 from vasc.network import Origin, SegmentKind
+from vasc.parameters import Parameters, quantity
 from vasc.placement import Moment
 from vasc.states import CanalState
 from vasc.vasculature import Vasculature
@@ -62,7 +63,7 @@ class StrandExtension(Extension[Canals]):
 
     def _next_place(self, veins: Vasculature, moment: Moment, canal: Canal) -> Points | None:
         """Give the place of a strand's next node, or None if it needs none."""
-        tip, goal = veins.places("nodes")[canal.tip], goal_of(veins, canal)
+        tip, goal = veins.places("nodes")[canal.tip], _goal_of(veins, canal)
         way = goal - tip
         distance = float(np.sqrt((way**2).sum()))
         step = self._segment_length / moment.scale
@@ -107,7 +108,7 @@ class StrandExtension(Extension[Canals]):
         tips = np.array([canal.tip for canal in strands], dtype=np.int32)
         sources = np.array([canal.source for canal in strands], dtype=np.int32)
         material, positions = moment.embed(places, veins.nodes.arrays["material"][tips])
-        nodes = append(veins, moment.step, tips, material, positions, sources, Origin.EXTENSION)
+        nodes = _append(veins, moment.step, tips, material, positions, sources, Origin.EXTENSION)
         ids = np.array([canal.id for canal in strands], dtype=np.int32)
         veins.log(moment.step, EventKind.STRAND_EXTENDED, ids, nodes)
         for canal, node in zip(strands, nodes.tolist(), strict=True):
@@ -134,7 +135,6 @@ class DrainingArrival(Arrival):
         super().__init__(kill_distance)
         self.canals = canals
         self.extension = extension
-        self.areolation = Areolation()
 
     def is_awaiting(self) -> bool:
         """Tell whether strands are under way, or about to leave a drained source."""
@@ -142,10 +142,10 @@ class DrainingArrival(Arrival):
 
     def reach(self, veins: Vasculature, moment: Moment) -> int:
         """Drain sources, join or end strands; gives the number of these."""
-        self.areolation.enclose_sources(veins, moment)
+        enclose_sources(veins, moment)
         n_reached = 0
         for canal in self.canals.under_way():
-            way = goal_of(veins, canal) - veins.places("nodes")[canal.tip]
+            way = _goal_of(veins, canal) - veins.places("nodes")[canal.tip]
             distance = float(np.sqrt((way**2).sum())) * moment.scale
             if canal.state == CanalState.INBOUND and distance <= self.kill_distance:
                 self._drain(veins, moment, canal)
@@ -167,7 +167,7 @@ class DrainingArrival(Arrival):
         columns = veins.sources.arrays
         material, place = columns["material"][row], veins.places("sources")[row]
         tip = np.array([canal.tip], dtype=np.int32)
-        node = append(veins, step, tip, material, place * moment.scale, source, Origin.SOURCE)
+        node = _append(veins, step, tip, material, place * moment.scale, source, Origin.SOURCE)
         veins.perceived.members[source, 0] = node[0]
         veins.remove_sources(step, np.array([source], dtype=np.int32))
         veins.log(step, EventKind.STRAND_EXTENDED, canal.id, node)
@@ -184,26 +184,26 @@ class DrainingArrival(Arrival):
             return
         if tip != node and not veins.is_connected(min(tip, node), max(tip, node)):
             segment = veins.join(step, (tip, node), canal.source)
-            self.areolation.divide(veins, moment, segment)
+            divide_tissue(veins, moment, segment)
         self.canals.change(veins, step, canal, CanalState.VEIN)
 
 
-def goal_of(veins: Vasculature, canal: Canal) -> Points:
+def _goal_of(veins: Vasculature, canal: Canal) -> Points:
     """Give the place a strand grows to: its source, or the vein node its canal leads to."""
     if canal.state == CanalState.INBOUND:
         return veins.places("sources")[canal.source]
     return veins.places("nodes")[canal.node]
 
 
-def append(
+def _append(
     veins: Vasculature,
     step: int,
-    tips: np.ndarray,
+    tips: Ids,
     material: Points,
     positions: Points,
-    sources: np.ndarray | int,
+    sources: Ids | int,
     origin: Origin,
-) -> np.ndarray:
+) -> Ids:
     """Append nodes beyond tips, and the segments to them; gives the ids of the nodes."""
     branches = veins.has_child[tips]
     veins.has_child[tips] = True
@@ -213,3 +213,32 @@ def append(
     if branches.any():
         veins.log(step, EventKind.VEIN_INITIATED, nodes[branches], tips[branches])
     return nodes
+
+
+class StrandParameters(Parameters):
+    """How strands extend along canals."""
+
+    segment_length: float = quantity(
+        "Length of a new segment (D); all other lengths are in the same unit.",
+        unit="D",
+        default=1.0,
+        gt=0.0,
+    )
+    lean: float = quantity(
+        "A vein to a source within the blade leaves another one that share of its length nearer"
+        " to the base than the closest node, so that it branches at an acute angle; 0, as in the"
+        " thesis: at right angles.",
+        default=0.0,
+        ge=0.0,
+        le=2.0,
+    )
+    blind_gap: float = quantity(
+        "What remains between a blind strand and the vein it does not join.",
+        unit="D",
+        default=0.9,
+        gt=0.0,
+    )
+
+    def extension(self, mesophyll_step: int | None) -> StrandExtension:
+        """Give the extension; from that step on strands end blindly, never if it is None."""
+        return StrandExtension(self.segment_length, mesophyll_step, self.blind_gap)

@@ -61,7 +61,7 @@ class Placement(ABC):
     @property
     @abstractmethod
     def spacing(self) -> float:
-        """Typical distance of neighbouring sources, in D (for the size of search cells)."""
+        """Typical distance of neighboring sources, in D (for the size of search cells)."""
 
     def begin(self, veins: Vasculature, rng: np.random.Generator) -> None:
         """Prepare what is drawn once, before the first step; by default nothing."""

@@ -109,6 +109,11 @@ class PhyllotaxisParameters(Parameters):
             D.
         rng : Generator
             Drawn from only if there is noise.
+
+        Returns
+        -------
+        Phyllotaxis
+            At least one primordium.
         """
         numbers = np.arange(self.primordia)
         levels, places = numbers // self.per_level, numbers % self.per_level
@@ -124,6 +129,19 @@ class PhyllotaxisParameters(Parameters):
 
 
 def on_stem(degrees: Floats, heights: Floats, radii: Floats) -> NDArray[np.float64]:
-    """Give the positions of points on a stem, shape (p, 3)."""
+    """Give the positions of points on a stem.
+
+    Parameters
+    ----------
+    degrees : ndarray of shape (p,), float64
+        Angles around the stem.
+    heights, radii : ndarray of shape (p,), float64
+        Heights above the ring, and the radius of the stem there, in D.
+
+    Returns
+    -------
+    ndarray of shape (p, 3), float64
+        x, y and height, in D.
+    """
     angles = np.deg2rad(degrees)
     return np.stack([radii * np.cos(angles), radii * np.sin(angles), heights], axis=1)

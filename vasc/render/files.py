@@ -91,7 +91,7 @@ def render(
                 timeline, output, only, unroll=unroll, scale_bar=scale_bar, pixels=pixels
             )
         if unroll:
-            raise VascError("only a stem can be unrolled; this is the run of a leaf")
+            raise VascError(f"unroll: only a stem can be unrolled, not a {timeline.model!r} leaf")
         widths = widths_of(timeline) if widths is None else widths
         style = LeafStyle() if style is None else style
         frames = [timeline.frame(at) for at in steps]

@@ -20,8 +20,10 @@ WORDS_WIDTH = 68
 """Characters of a line of the observed sequence."""
 SIZE = (11.0, 1.1)
 """Width of the picture and height of title and axis together, in inches."""
-WORDS_SHARE = 0.42
-"""Share of the width that the observed sequence takes."""
+WORDS_SHARE, AXES_SHARE = 0.42, 0.56
+"""Shares of the width that the observed sequence and the axes take."""
+INDENT = 0.96
+"""Where the observed sequence begins, in its width to the left of the axes."""
 FORWARD, BACKWARD = "#4f8a3c", "#c8102e"
 """From one event to the next in the observed order: as observed, or the other way round."""
 PALE = "#8a8a8a"
@@ -61,7 +63,7 @@ def draw_sequence(report: Mapping[str, Any], output: str | Path) -> Path:
     height = tops[-1] * LINE
     figure = Figure(figsize=(SIZE[0], height + SIZE[1]))
     axes = figure.add_axes(
-        (WORDS_SHARE, 0.55 / (height + SIZE[1]), 0.57 - 0.01, height / (height + SIZE[1]))
+        (WORDS_SHARE, 0.55 / (height + SIZE[1]), AXES_SHARE, height / (height + SIZE[1]))
     )
     axes.set_ylim(tops[-1], 0.0)
     last = max(float(report["run"]["steps"]), 1.0)
@@ -94,7 +96,7 @@ def _write_words(axes: Axes, words: list[str], top: float) -> None:
             text,
             (0.0, top + line + 1.0),
             xycoords=("axes fraction", "data"),
-            xytext=(-0.96 * WORDS_SHARE * SIZE[0] * 72.0, 0.0),
+            xytext=(-INDENT * WORDS_SHARE * SIZE[0] * 72.0, 0.0),
             textcoords="offset points",
             size=TEXT_SIZE * (0.85 if is_source else 1.0),
             color=PALE if is_source else INK,
@@ -145,7 +147,7 @@ def _finish(axes: Axes, report: Mapping[str, Any], last: float) -> None:
     counts = f"{verdicts.count(True)} of {len(verdicts)} criteria pass; failures: {failures}"
     axes.set_title(f"{report['run']['file']}: {counts}", size=TEXT_SIZE + 1.0, color=INK)
     axes.text(
-        -0.96 * WORDS_SHARE / 0.56,
+        -INDENT * WORDS_SHARE / AXES_SHARE,
         1.0,
         "observed in the first leaf of Arabidopsis",
         transform=axes.transAxes,

@@ -9,7 +9,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from vasc.analysis.tubes import BASE_RADIUS, PRIMORDIUM_RADIUS, set_outward, strand_radii
+from vasc.analysis.tubes import (
+    BASE_RADIUS,
+    PRIMORDIUM_OUTWARD,
+    PRIMORDIUM_RADIUS,
+    set_outward,
+    strand_radii,
+)
 from vasc.analysis.units import LengthUnit
 from vasc.arrays import Floats, Ids, Points
 from vasc.errors import VascError
@@ -208,7 +214,7 @@ def _sight(positions: Points, primordia: Ids, radii: Floats, style: StemStyle) -
     across = np.array([-np.sin(turn), np.cos(turn), 0.0])
     toward = np.array([np.cos(turn) * np.cos(rise), np.sin(turn) * np.cos(rise), np.sin(rise)])
     axes = np.stack([across, np.cross(toward, across), toward], axis=1)
-    spheres = set_outward(positions[primordia], 0.6 * PRIMORDIUM_RADIUS) @ axes
+    spheres = set_outward(positions[primordia], PRIMORDIUM_OUTWARD) @ axes
     body = _outline(positions[:, 2], radii, float(np.sin(rise)), float(np.cos(rise)))
     edge = PRIMORDIUM_RADIUS + 1.0
     shown = np.concatenate([body, spheres[:, :2] - edge, spheres[:, :2] + edge])

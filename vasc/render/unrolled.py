@@ -28,6 +28,12 @@ DASHES = (0.0, (3.0, 2.0))
 """Dashes of what is beyond the cut, in widths of its lines."""
 BORDER = 6.0
 """No box is drawn nearer to the edge of the picture, in degrees."""
+BOX_SIDES = (2.0, 1.7)
+"""Width and height of a box, over the size of its number; for two digits."""
+COVERED = 0.5
+"""Boxes that hide more than this share of a vein straight up to the next one stand beside it."""
+ASIDE_BY = 3.5
+"""How far beside, in pt."""
 
 
 @dataclass(frozen=True)
@@ -236,7 +242,9 @@ def draw_flat(
     width, height = size_in_points(axes)
     area = width * TURN / (TURN + 2.0 * style.strip) * height / max(len(primordia), 1)
     size = float(np.clip(0.3 * np.sqrt(area), *style.text))
-    _draw_boxes(axes, flat.places[primordia], continued, style, size)
+    shares = size / np.array([width, height]) * [TURN + 2.0 * style.strip, 1.06 * top]
+    aside = _hides_veins(flat.places[primordia], shares * BOX_SIDES)
+    _draw_boxes(axes, flat.places[primordia], continued, style, size, aside=aside)
 
 
 def _draw_veins(
@@ -312,29 +320,52 @@ def _draw_beyond(axes: Axes, flat: Unrolled, segments: Ids, style: UnrolledStyle
         _clip(axes, drawn, left, left + style.strip)
 
 
+def _hides_veins(places: Points, box: Floats) -> bool:
+    """Tell whether most boxes would cover the way to the next primordium straight above."""
+    off = places[None, :] - places[:, None]
+    across = np.abs((off[:, :, 0] + TURN / 2.0) % TURN - TURN / 2.0)
+    rises = np.where((across < box[0]) & (off[:, :, 1] > 0.0), off[:, :, 1], np.inf)
+    nearest = rises.min(axis=1, initial=np.inf)
+    return 2 * int((nearest * COVERED < box[1]).sum()) > len(places)
+
+
 def _draw_boxes(
-    axes: Axes, places: Points, continued: NDArray[np.bool_], style: UnrolledStyle, size: float
+    axes: Axes,
+    places: Points,
+    continued: NDArray[np.bool_],
+    style: UnrolledStyle,
+    size: float,
+    *,
+    aside: bool,
 ) -> None:
-    """Draw primordia as numbered boxes, dashed where a connection ends beyond the cut."""
+    """Draw primordia as numbered boxes, dashed where a connection ends beyond the cut.
+
+    Boxes that stand aside leave a point at the place of the primordium.
+    """
     for number, ((angle, height), is_continued) in enumerate(zip(places, continued, strict=True)):
         beyond = [angle - TURN, angle + TURN] if is_continued else []
         for at in [angle, *beyond]:
             is_own = at == angle
             if not -style.strip + BORDER < at < TURN + style.strip - BORDER:
                 continue
-            axes.text(
-                at,
-                height,
+            color = INK if is_own else style.severed
+            order = 4 if is_own else 3
+            if aside:
+                axes.plot(at, height, "o", color=color, markersize=2.5, zorder=order)
+            axes.annotate(
                 str(number),
+                (at, height),
+                xytext=(ASIDE_BY if aside else 0.0, 0.0),
+                textcoords="offset points",
                 size=size,
-                color=INK if is_own else style.severed,
-                ha="center",
+                color=color,
+                ha="left" if aside else "center",
                 va="center",
-                zorder=4 if is_own else 3,
+                zorder=order,
                 bbox={
                     "boxstyle": "square,pad=0.22",
                     "facecolor": style.box if is_own else "white",
-                    "edgecolor": INK if is_own else style.severed,
+                    "edgecolor": color,
                     "linewidth": 0.6,
                     "linestyle": "-" if is_own else (0, (2.0, 1.5)),
                 },

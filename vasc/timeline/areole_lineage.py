@@ -83,7 +83,7 @@ def areole_fate(timeline: Recorded, areole: int) -> AreoleFate:
         raise TimelineError(f"{timeline.path}: there is no areole {areole}; {known}")
     parents = timeline.table("areoles", "parent")
     events = timeline.events
-    sources = _objects_first(events, EventKind.SOURCE_ENCLOSED, areole)
+    sources = np.unique(_subjects_of(events, EventKind.SOURCE_ENCLOSED, areole))
     is_split = (events["kind"] == EventKind.AREOLE_SPLIT) & (events["subject"] == areole)
     return AreoleFate(
         areole=areole,
@@ -109,15 +109,9 @@ def _ancestors(parents: Ids, areole: int) -> tuple[int, ...]:
     return tuple(found)
 
 
-def _objects_first(events: Mapping[str, NDArray], kind: EventKind, item: int) -> Ids:
-    """Give the subjects of the events of a kind with an object, ascending."""
-    rows = (events["kind"] == kind) & (events["object"] == item)
-    return np.unique(events["subject"][rows]).astype(np.int32)
-
-
-def _subjects_of(events: Mapping[str, NDArray], kind: EventKind, items: Ids) -> Ids:
-    """Give the subjects of the events of a kind whose object is one of some."""
-    rows = (events["kind"] == kind) & np.isin(events["object"], items)
+def _subjects_of(events: Mapping[str, NDArray], kind: EventKind, objects: Ids | int) -> Ids:
+    """Give the subjects of the events of a kind with some objects."""
+    rows = (events["kind"] == kind) & np.isin(events["object"], objects)
     found: Ids = events["subject"][rows]
     return found
 

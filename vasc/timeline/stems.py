@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from vasc.arrays import Floats, Ids, Points
+from vasc.domain.stem import radii_at
 from vasc.errors import TimelineError
 from vasc.network import Origin
 from vasc.timeline.reader import Timeline
@@ -66,12 +67,13 @@ def recorded_stem(timeline: Timeline, step: int = -1) -> RecordedStem:
     if not timeline.n_frames:
         raise TimelineError(f"{timeline.path}: holds no step")
     network = timeline.frame(step).network
+    domain: dict[str, Any] = timeline.config["domain"]
     return RecordedStem(
         positions=network.positions,
         segments=network.segments,
         primordia=np.flatnonzero(network.origins == Origin.PRIMORDIUM).astype(np.int32),
         ring=timeline.base_ring,
-        radii=radii_at(timeline.config["domain"], network.positions[:, 2]),
+        radii=radii_at(network.positions[:, 2], domain.get("radius"), domain.get("radii") or []),
     )
 
 
@@ -85,6 +87,11 @@ def elongated(stem: RecordedStem, internodes: Sequence[Sequence[float]]) -> Reco
     internodes : sequence of pairs of float
         Heights over that of the stem, before and after; a monotone curve goes through
         them (Runions 2008, section 6.2.3 and Figure 6.5). The stem itself if empty.
+
+    Returns
+    -------
+    RecordedStem
+        With the same veins at other heights.
     """
     if not len(internodes):
         return stem
@@ -98,11 +105,3 @@ def elongated(stem: RecordedStem, internodes: Sequence[Sequence[float]]) -> Reco
     shares = np.clip(positions[:, 2] / top, 0.0, 1.0)
     positions[:, 2] = top * PchipInterpolator(before, after)(shares)
     return replace(stem, positions=positions)
-
-
-def radii_at(domain: dict[str, Any], heights: Floats) -> Floats:
-    """Give the radius of a stem at heights, as the table ``domain`` of its config has it."""
-    if domain.get("radius") is not None:
-        return np.full(len(heights), float(domain["radius"]))
-    known = np.array(domain["radii"], dtype=np.float64)
-    return np.asarray(np.interp(heights, known[:, 0], known[:, 1]), dtype=np.float64)

@@ -11,7 +11,7 @@ from vasc.timeline import Timeline
 from vasc.validation.references import OURS
 from vasc.validation.stem_phyllotaxis import ConnectivityReport, check_connectivity
 from vasc.validation.stem_phyllotaxis.reading import read_stem
-from vasc.validation.stem_references import STEM_PATTERNS, StemPattern
+from vasc.validation.stem_references import LEAST_FRACTION, STEM_PATTERNS, StemPattern
 
 MIDDLE = StemPattern(137.5, 28.0, 10.0, (2, 3), 5, "", basis=OURS)
 """(2, 3) in the middle of its interval of R/H, where no boundary is near."""
@@ -36,15 +36,23 @@ def config_of(pattern: StemPattern) -> dict[str, Any]:
     }
 
 
-def grown(tables: dict[str, Any]) -> ConnectivityReport:
-    """Grow a stem, record it, and check what its veins connect."""
+def grown(tables: dict[str, Any], least_fraction: float = LEAST_FRACTION) -> ConnectivityReport:
+    """Grow a stem, record it, and check what its veins connect.
+
+    Parameters
+    ----------
+    tables : dict
+        The experiment, as in a config.
+    least_fraction : float
+        Share of the judged primordia that must have exactly the pair.
+    """
     import tomli_w
 
     with TemporaryDirectory() as folder:
         output = Path(folder) / "stem.h5"
         run(load_text(tomli_w.dumps(tables)), output)
         with Timeline(output) as timeline:
-            return check_connectivity(read_stem(timeline))
+            return check_connectivity(read_stem(timeline), least_fraction)
 
 
 def validate_stem(progress: Callable[[str], None] = lambda name: None) -> dict[str, Any]:
@@ -70,11 +78,7 @@ def validate_stem(progress: Callable[[str], None] = lambda name: None) -> dict[s
             f" {pattern.pair[0]},{pattern.pair[1]}"
         )
         progress(name)
-        report = grown(config_of(pattern))
-        is_pair = report.pair == pattern.pair
-        is_enough = (
-            report.fraction >= pattern.least_fraction if report.tie is None else report.tie.passed
-        )
+        report = grown(config_of(pattern), pattern.least_fraction)
         checks.append(
             {
                 "name": name,
@@ -82,7 +86,7 @@ def validate_stem(progress: Callable[[str], None] = lambda name: None) -> dict[s
                 "low": pattern.least_fraction,
                 "high": 1.0,
                 "source": f"Runions (2008), Figure {pattern.figure}" if pattern.figure else "ours",
-                "pass": is_pair and is_enough,
+                "pass": report.pair == pattern.pair and report.passed,
                 "pair": list(report.pair),
                 "expected": list(pattern.pair),
                 "tie": None if report.tie is None else report.tie.explanation,

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vasc.arrays import Ids, Points
+from vasc.domain.rings import surrounds
 from vasc.events import EventKind
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ SHORTEST = 1e-12
 """Length of a segment between coincident nodes; a graph takes 0 for no segment at all."""
 
 
-class Material:
+class KeptFrames:
     """The frames of a timeline, each read once.
 
     Parameters
@@ -30,14 +30,14 @@ class Material:
         self.timeline = timeline
         self._frames: dict[int, Frame] = {}
 
-    def frame(self, step: int) -> "Frame":
+    def at(self, step: int) -> "Frame":
         """Give a recorded step."""
         if step not in self._frames:
             self._frames[step] = self.timeline.frame(step)
         return self._frames[step]
 
 
-def loop_nodes(material: Material, row: int) -> Ids:
+def loop_nodes(frames: KeptFrames, row: int) -> Ids:
     """Give the nodes of the loop that a join closed, from one end of the join to the other.
 
     The loop is the join and the shortest way between its ends in the network
@@ -45,8 +45,8 @@ def loop_nodes(material: Material, row: int) -> Ids:
 
     Parameters
     ----------
-    material : Material
-        The frames.
+    frames : KeptFrames
+        The frames of the run.
     row : int
         Row of the event ``LOOP_CLOSED``.
 
@@ -55,10 +55,10 @@ def loop_nodes(material: Material, row: int) -> Ids:
     ndarray of shape (k,), int32
         Node ids, k >= 2; the two ends alone if no way leads from one to the other.
     """
-    timeline = material.timeline
+    timeline = frames.timeline
     closing = int(timeline.events["subject"][row])
     step = int(timeline.events["step"][row])
-    positions = material.frame(step).positions
+    positions = frames.at(step).positions
     nodes = timeline.table("segments", "nodes")
     start, goal = nodes[closing].tolist()
     refined = _refined_before(timeline, row)
@@ -121,31 +121,8 @@ def shortest_path(segments: Ids, positions: Points, start: int, goal: int) -> Id
     return np.array(path[::-1], dtype=np.int32)
 
 
-def polygon_area(corners: Points) -> float:
-    """Give the area within a closed polygon, by the shoelace formula.
-
-    Examples
-    --------
-    >>> polygon_area(np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 3.0], [0.0, 3.0]]))
-    6.0
-    """
-    following = np.roll(corners, -1, axis=0)
-    crossed = corners[:, 0] * following[:, 1] - corners[:, 1] * following[:, 0]
-    return abs(float(crossed.sum())) / 2.0
-
-
-def is_within(place: NDArray[np.float64], corners: Points) -> bool:
-    """Tell whether a point is inside a polygon, by the even-odd rule."""
-    x, y = place
-    following = np.roll(corners, -1, axis=0)
-    is_level = (corners[:, 1] > y) != (following[:, 1] > y)
-    a, b = corners[is_level], following[is_level]
-    crossings = a[:, 0] + (y - a[:, 1]) * (b[:, 0] - a[:, 0]) / (b[:, 1] - a[:, 1])
-    return int((crossings > x).sum()) % 2 == 1
-
-
 def first_inside(
-    material: Material, nodes: Ids, step: int, sources: Sequence["SourceStory"]
+    frames: KeptFrames, nodes: Ids, step: int, sources: Sequence["SourceStory"]
 ) -> int | None:
     """Give the first source born inside a loop after its closing, None if none was.
 
@@ -153,8 +130,8 @@ def first_inside(
 
     Parameters
     ----------
-    material : Material
-        The frames.
+    frames : KeptFrames
+        The frames of the run.
     nodes : ndarray of shape (k,), int32
         Nodes of the loop.
     step : int
@@ -162,10 +139,10 @@ def first_inside(
     sources : sequence of SourceStory
         In the order of birth.
     """
-    places = material.timeline.table("sources", "position")
+    places = frames.timeline.table("sources", "position")
     for one in sources:
         if one.step > step and not one.is_on_margin:
-            corners = material.frame(one.step).positions[nodes]
-            if is_within(places[one.id], corners):
+            corners = frames.at(one.step).positions[nodes]
+            if surrounds(corners, places[one.id]):
                 return one.id
     return None

@@ -1,18 +1,20 @@
 """Read the story of a leaf out of a timeline; whatever model made it."""
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vasc.arrays import NULL, Ids, Points
+from vasc.domain.rings import signed_area
 from vasc.errors import VascError
 from vasc.events import EventKind
 from vasc.network import Origin, SegmentKind
 from vasc.sources import Cause
 from vasc.timeline import Frame, Timeline
 from vasc.validation.arabidopsis.cast import Cast
-from vasc.validation.arabidopsis.loops import Material, first_inside, loop_nodes, polygon_area
+from vasc.validation.arabidopsis.loops import KeptFrames, first_inside, loop_nodes
 from vasc.validation.arabidopsis.story import Ending, LoopStory, SourceStory, Story
 from vasc.validation.references import SEQUENCE
 
@@ -56,8 +58,9 @@ def read_story(timeline: Timeline) -> Story:
     )
     # whose loops matter is known only from the sources: to follow all of a large leaf is slow
     cast = Cast(told)
-    actors = {id for pair in (cast.upper, cast.pair_2, cast.pair_3) if pair for id in pair.ids}
-    return Story(**(vars(told) | {"loops": reading.loops(actors, sources)}))
+    closing = (pair for pair in (cast.upper, cast.pair_2, cast.pair_3) if pair is not None)
+    actors = set().union(*(pair.ids for pair in closing))
+    return replace(told, loops=reading.loops(actors, sources))
 
 
 def node_owners(timeline: Timeline) -> Ids:
@@ -86,7 +89,7 @@ class _Reading:
         self.times: NDArray[np.float64] = timeline.frames["time"]
         self.events = {name: timeline.events[name] for name in timeline.events}
         self.owners = node_owners(timeline)
-        self.material = Material(timeline)
+        self.frames = KeptFrames(timeline)
         self.fates = timeline.lineage.fates
         self.birth_distance = birth_distance(timeline)
 
@@ -157,16 +160,16 @@ class _Reading:
     def height(self, source: int, step: int) -> float:
         """Give where the tissue of a source is at a step, in leaf lengths from the base."""
         node = int(self.fates["nearest"][source])
-        frame = self.material.frame(step)
+        frame = self.frames.at(step)
         if node == NULL or node >= len(frame.positions):
             birth = int(self.fates["birth"][source])
             y = float(self.timeline.table("sources", "position", source, source + 1)[0, 1])
-            return y / self.material.frame(birth).blade.length
+            return y / self.frames.at(birth).blade.length
         return float(frame.positions[node, 1]) / frame.blade.length
 
     def length(self, step: int) -> float:
         """Give the length of the leaf at a step."""
-        return self.material.frame(step).blade.length
+        return self.frames.at(step).blade.length
 
     def loops(self, actors: set[int], sources: tuple[SourceStory, ...]) -> tuple[LoopStory, ...]:
         """Give the loops that veins of some sources closed."""
@@ -175,17 +178,17 @@ class _Reading:
         steps = self.events["step"][rows].tolist()
         found = []
         for row, step in zip(rows.tolist(), steps, strict=True):
-            nodes = loop_nodes(self.material, row)
+            nodes = loop_nodes(self.frames, row)
             moments = sorted({each for each in steps if each >= step} | {self.timeline.last_step})
-            polygons = {at: self.material.frame(at).positions[nodes] for at in moments}
+            polygons = {at: self.frames.at(at).positions[nodes] for at in moments}
             found.append(
                 LoopStory(
                     source=int(self.events["object"][row]),
                     step=step,
                     time=self.time(step),
                     owners=frozenset(self.owners[nodes].tolist()),
-                    areas={at: polygon_area(polygon) for at, polygon in polygons.items()},
-                    first_source=first_inside(self.material, nodes, step, sources),
+                    areas={at: abs(signed_area(polygon)) for at, polygon in polygons.items()},
+                    first_source=first_inside(self.frames, nodes, step, sources),
                     outline=tuple(
                         (float(x), float(y)) for x, y in polygons[self.timeline.last_step]
                     ),

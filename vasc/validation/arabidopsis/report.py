@@ -179,12 +179,11 @@ def _births(cast: Cast) -> Iterator[dict[str, Any]]:
     ):
         if pair is not None:
             yield _row(cast, name, pair.step, pair.time, sorted(pair.ids), pair.height)
-    drained = [] if cast.pair_1 is None else [one.drained_step for one in cast.pair_1.sides]
-    ends = [] if cast.pair_1 is None else [one.drained_time for one in cast.pair_1.sides]
-    steps = [step for step in drained if step is not None]
-    times = [time for time in ends if time is not None]
-    if cast.pair_1 is not None and len(steps) == 2:
-        yield _row(cast, "lower_halves", max(steps), max(times), sorted(cast.pair_1.ids))
+    lower = () if cast.pair_1 is None else cast.pair_1.sides
+    ends = [(one.drained_step, one.drained_time) for one in lower if one.drained_step is not None]
+    if len(ends) == 2:
+        step, time = max(ends, key=lambda end: end[0])
+        yield _row(cast, "lower_halves", step, time, sorted(one.id for one in lower))
 
 
 def _loop_events(cast: Cast) -> Iterator[dict[str, Any]]:

@@ -14,13 +14,9 @@ from vasc.validation.stem_phyllotaxis.parastichies import (
     sympodia,
     topology_table,
 )
-from vasc.validation.stem_phyllotaxis.report import (
-    ConnectivityReport,
-    TieVerdict,
-    check_connectivity,
-    judge_tie,
-)
+from vasc.validation.stem_phyllotaxis.report import ConnectivityReport, check_connectivity
 from vasc.validation.stem_phyllotaxis.stem_graph import StemGraph
+from vasc.validation.stem_phyllotaxis.ties import TieVerdict, judge_tie
 from vasc.validation.stem_phyllotaxis.transitions import Interval, crossing, intervals
 
 __all__ = [

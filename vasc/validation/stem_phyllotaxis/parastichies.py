@@ -1,16 +1,14 @@
 """Phyllotaxis beside veins: contact parastichies, sympodia, and a table of both."""
 
 from dataclasses import dataclass
+from itertools import combinations
 from math import degrees, gcd, pi
 
 import numpy as np
 
 from vasc.arrays import Ids
 from vasc.validation.stem_phyllotaxis.connectivity import Connectivity
-from vasc.validation.stem_phyllotaxis.lattice import Prediction, PrimordiumLattice
-
-TIE = 1e-9
-"""Lengths that differ by a smaller share are equal."""
+from vasc.validation.stem_phyllotaxis.lattice import TIE, Prediction, PrimordiumLattice
 
 
 @dataclass(frozen=True)
@@ -95,19 +93,39 @@ def contact_parastichies(lattice: PrimordiumLattice) -> ContactParastichies:
     )
 
 
-def n_sympodia(steps: tuple[int, ...]) -> int:
+def n_sympodia(steps: tuple[int, ...], per_level: int = 1) -> int:
     """Give how many systems of veins without connection an endless stem of these steps has.
 
-    Primordia whose numbers differ by sums of steps are connected, so there are as many
-    systems as the greatest common divisor says: one step a alone gives a open sympodia,
-    and two consecutive Fibonacci numbers join all into one closed system.
+    Primordia whose levels and members differ by sums of steps are connected. In a spiral
+    there are as many systems as the greatest common divisor of the steps says: one step a
+    alone gives a open sympodia, and two consecutive Fibonacci numbers join all into one
+    closed system.
+
+    Parameters
+    ----------
+    steps : tuple of int
+        Steps in the order of birth, see :meth:`PrimordiumLattice.code`.
+    per_level : int
+        Primordia a level.
+
+    Returns
+    -------
+    int
+        0 for no steps: as many systems as primordia.
 
     Examples
     --------
     >>> n_sympodia((5, 8)), n_sympodia((5,)), n_sympodia((2, 4))
     (1, 5, 2)
+
+    Leaves in crossed pairs whose veins follow the four rows of leaves:
+
+    >>> n_sympodia((5,), per_level=2)
+    4
     """
-    return gcd(*steps)
+    # the index of the steps, with a full turn of a level, among all separations
+    rows = [divmod(step, per_level) for step in steps] + [(0, per_level)]
+    return gcd(*(a * d - b * c for (a, b), (c, d) in combinations(rows, 2)))
 
 
 def sympodia(connectivity: Connectivity) -> Ids:

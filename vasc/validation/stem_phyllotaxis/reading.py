@@ -3,10 +3,8 @@
 from math import radians
 from typing import Any
 
-import numpy as np
-
 from vasc.timeline import Timeline
-from vasc.timeline.stems import radii_at, recorded_stem
+from vasc.timeline.stems import recorded_stem
 from vasc.validation.stem_phyllotaxis.stem_graph import StemGraph
 
 
@@ -27,8 +25,9 @@ def read_stem(timeline: Timeline) -> StemGraph:
     """
     stem = recorded_stem(timeline)
     placement: dict[str, Any] = timeline.config["placement"]
-    n_primordia = len(stem.primordia)
-    middle = stem.positions[stem.primordia[[n_primordia // 2]], 2] if n_primordia else np.zeros(1)
+    # a stem without primordia has the radius of its ring
+    known = stem.radii[stem.primordia if len(stem.primordia) else stem.ring]
+    ends = float(known.min()), float(known.max())
     return StemGraph(
         positions=stem.positions,
         segments=stem.segments,
@@ -36,6 +35,7 @@ def read_stem(timeline: Timeline) -> StemGraph:
         ring=stem.ring,
         divergence=radians(float(placement["divergence"])),
         rise=float(placement["rise"]),
-        radius=float(radii_at(timeline.config["domain"], middle)[0]),
+        radius=float(known[len(known) // 2]),
         per_level=int(placement["per_level"]),
+        radius_range=ends if ends[0] < ends[1] else None,
     )

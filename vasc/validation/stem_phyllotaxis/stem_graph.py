@@ -29,9 +29,11 @@ class StemGraph:
     rise : float
         Height from one level to the next, in D.
     radius : float
-        Of the stem, in D.
+        Of the stem, in D; that at the middle primordium where it changes.
     per_level : int
         Primordia a level; those of one level follow each other.
+    radius_range : tuple of float, optional
+        Its least and largest at the primordia, in D; None where it is the same for all.
 
     Raises
     ------
@@ -49,6 +51,7 @@ class StemGraph:
     rise: float
     radius: float
     per_level: int = 1
+    radius_range: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         if self.positions.ndim != 2 or self.positions.shape[1] != 3:
