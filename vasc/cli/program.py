@@ -9,6 +9,7 @@ import typer
 from vasc.cli import (
     animate,
     check,
+    compare,
     configs,
     events,
     export,
@@ -34,6 +35,7 @@ VERBS = (
     events,
     lineage,
     stats,
+    compare,
     render,
     animate,
     export,
