@@ -101,7 +101,9 @@ def strand_of(
     """Read the strand of a source from a state at rest."""
     assert state.tissue is not None
     assert state.fields is not None
-    return read_strand(state.tissue, state.fields, source, veins, transport.activation)
+    return read_strand(
+        state.tissue, state.fields, source, veins, transport.activation(state.tissue)
+    )
 
 
 # drawing

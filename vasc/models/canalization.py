@@ -153,12 +153,14 @@ class Canalization(Model):
 
     def differentiate(self, cells: CanalCells, step: int, flux: Floats, carriers: Floats) -> None:
         """Make veins of the canals that lead from sources to veins, in the order of sources."""
+        threshold = self.transport.activation(self.tissue)
         for source in cells.live.tolist():
             start = int(cells.source_cells[source])
             way, walls, is_loop = kernels.trunks.trunk(
                 self.tissue.walls, flux, start, cells.is_vein
             )
-            is_canal = carriers[walls].max(axis=1, initial=0.0) >= self.transport.activation
+            # the last wall may share its flux with others that lead to the same vein
+            is_canal = carriers[walls[:-1]].max(axis=1, initial=0.0) >= threshold
             if not is_loop and cells.is_vein[way[-1]] and is_canal.all():
                 cells.differentiate(step, source, way)
 

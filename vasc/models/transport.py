@@ -20,6 +20,8 @@ from vasc.parameters import Parameters, quantity
 class Transport(Parameters):
     """What walls pass, and what the flux makes of them."""
 
+    gain: float
+
     @abstractmethod
     def resting(self, tissue: Tissue) -> Floats:
         """Give the carriers of walls without any flux, shape (w, 2)."""
@@ -34,13 +36,22 @@ class Transport(Parameters):
 
     @property
     @abstractmethod
-    def activation(self) -> float:
-        """Carriers at which a wall counts as part of a canal: between resting and saturated."""
+    def most(self) -> float:
+        """Most carriers of a wall, infinite where there is no limit."""
 
     @property
     @abstractmethod
     def is_polar(self) -> bool:
         """Whether a wall may pass more in one direction."""
+
+    def activation(self, tissue: Tissue) -> float:
+        """Give the carriers from which on a wall counts as part of a canal.
+
+        The geometric mean of what walls have at rest, on average, and of the most they can
+        have; of the gain, where that has no limit.
+        """
+        most = self.most if np.isfinite(self.most) else self.gain
+        return float(np.sqrt(self.resting(tissue).mean() * most))
 
 
 class FacilitatedDiffusion(Transport):
@@ -86,11 +97,6 @@ class FacilitatedDiffusion(Transport):
         """Give the carriers that a lasting flux would lead to, shape (w, 2)."""
         one = np.minimum(tissue.lengths + self.gain * flux * flux, self.most)
         return np.stack([one, one], axis=1)
-
-    @property
-    def activation(self) -> float:
-        """The geometric mean of resting and saturated state."""
-        return float(np.sqrt(self.most))
 
     @property
     def is_polar(self) -> bool:
@@ -165,11 +171,6 @@ class PolarTransport(PolarWalls):
         """Give the carriers that a lasting flux would lead to, shape (w, 2)."""
         return np.minimum(self.baseline + self.gain * one_way(flux) ** 2, self.most)
 
-    @property
-    def activation(self) -> float:
-        """The geometric mean of resting and saturated carriers; of the gain without a limit."""
-        return float(np.sqrt(self.baseline * min(self.most, self.gain)))
-
 
 class PooledTransport(PolarWalls):
     """Polar transport by carriers of which each cell has a fixed number (Feugier et al. 2005).
@@ -190,6 +191,11 @@ class PooledTransport(PolarWalls):
     baseline: float = quantity("Weight of a wall without flux, B.", default=0.2, gt=0.0, le=1e6)
     pool: float = quantity("Carriers of a cell, P_tot / T.", default=10.0, gt=0.0, le=1e12)
 
+    @property
+    def most(self) -> float:
+        """Most carriers of a wall: all of a cell."""
+        return self.pool
+
     def resting(self, tissue: Tissue) -> Floats:
         """Give the carriers of walls without any flux, shape (w, 2)."""
         return self.targets(tissue, np.zeros(tissue.n_walls))
@@ -205,11 +211,6 @@ class PooledTransport(PolarWalls):
                 minlength=tissue.n_cells,
             )
         return self.pool * weights / (1.0 + asked[tissue.walls])
-
-    @property
-    def activation(self) -> float:
-        """The geometric mean of the carriers of a wall without flux and of all of a cell."""
-        return float(np.sqrt(self.baseline) * self.pool)
 
 
 AnyTransport = Annotated[

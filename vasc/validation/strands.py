@@ -123,7 +123,7 @@ def check_strand(timeline: Timeline, source: int | None = None, step: int = -1) 
             f"{timeline.path}: no tissue: a run of the kind {timeline.config.get('kind')!r} has no"
             " strands to read; canalization has"
         )
-    activation = _activation(timeline)
+    activation = _activation(timeline, tissue)
     frame = timeline.frame(step)
     births = frame.rows("sources", "birth")
     source = len(births) - 1 if source is None else source
@@ -186,7 +186,7 @@ def _veins(
     return ids, [cells[one] for one in ids]
 
 
-def _activation(timeline: Timeline) -> float:
+def _activation(timeline: Timeline, tissue: Tissue) -> float:
     """Give the carriers at which a wall of the recorded model counts as part of a canal."""
     with experiment_from_record(timeline.config, name=str(timeline.path)) as experiment:
         transport = getattr(experiment.parameters, "transport", None)
@@ -196,7 +196,7 @@ def _activation(timeline: Timeline) -> float:
             f"{timeline.path}: kind = {timeline.config.get('kind')!r}: its walls have no threshold"
             " from which on they are a canal; 'canalization' has"
         )
-    return float(activation)
+    return float(activation(tissue))
 
 
 def _number(value: float) -> float | None:

@@ -103,7 +103,8 @@ def settle(
         raise RunError("the tissue came to no state")
     kinds = state.rows("events", "kind")
     strands = [
-        read_strand(tissue, state.fields, int(cell), veins, transport.activation) for cell in cells
+        read_strand(tissue, state.fields, int(cell), veins, transport.activation(tissue))
+        for cell in cells
     ]
     return Settled(
         fields=state.fields,

@@ -63,7 +63,7 @@ def canalized(tissue: Tissue, sources: Ids, base: int) -> tuple[Pattern, dict[st
         for strand in settled.strands
         for a, b in zip(strand.path[:-1].tolist(), strand.path[1:].tolist(), strict=True)
     }
-    active = settled.fields.carriers.max(axis=1) >= transport.activation
+    active = settled.fields.carriers.max(axis=1) >= transport.activation(tissue)
     facts = {
         "formed": sum(strand.is_formed for strand in settled.strands),
         "cycles": count_cycles(tissue.walls[active]),
