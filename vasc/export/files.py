@@ -59,8 +59,19 @@ def check_mesh_output(output: Path) -> None:
     OutputError
         If its suffix is none of those known, or its folder does not exist.
     """
-    if output.suffix.lower() not in MESH_SUFFIXES:
-        known = ", ".join(MESH_SUFFIXES)
+    check_suffix(output, MESH_SUFFIXES)
+
+
+def check_suffix(output: Path, suffixes: tuple[str, ...]) -> None:
+    """Refuse a file of another suffix, or in a folder that is not there.
+
+    Raises
+    ------
+    OutputError
+        If it is one.
+    """
+    if output.suffix.lower() not in suffixes:
+        known = ", ".join(suffixes)
         raise OutputError(f"{output}: suffix {output.suffix!r} is not one of {known}")
     if not output.parent.is_dir():
         raise OutputError(f"{output}: folder {output.parent} does not exist")

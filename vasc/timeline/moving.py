@@ -6,11 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vasc.arrays import Ids, Points, Steps
-from vasc.timeline.layout import Motion
+from vasc.timeline.access import OpenFile
+from vasc.timeline.layout import MOTION, Motion
 
 
 class Recorded(Protocol):
     """What positions of single nodes need of a timeline."""
+
+    opened: OpenFile
 
     @property
     def motion(self) -> Motion:
@@ -22,9 +25,6 @@ class Recorded(Protocol):
 
     def table(self, name: str, column: str, start: int = 0, stop: int | None = None) -> NDArray:
         """Read rows of a column."""
-
-    def place_rows(self, name: str, step: int, start: int, stop: int) -> Points:
-        """Read some rows of the explicit positions of a step."""
 
 
 def positions_at(timeline: Recorded, nodes: Ids, steps: Steps) -> Points:
@@ -50,12 +50,15 @@ def positions_at(timeline: Recorded, nodes: Ids, steps: Steps) -> Points:
             return places
         maps = timeline.frames["motion"][steps]
         return np.einsum("kij,kj->ki", maps[:, :, :2], places) + maps[:, :, 2]
+    # the positions of all nodes at a step follow those at the step before
+    begins = np.concatenate([[0], np.cumsum(timeline.frames["n_nodes"])])
     found = np.empty((len(nodes), 2))
     order = np.argsort(steps, kind="stable")
     for rows in np.split(order, np.flatnonzero(np.diff(steps[order])) + 1):
         if not len(rows):
             continue
         first, last = int(nodes[rows].min()), int(nodes[rows].max())
-        block = timeline.place_rows("nodes", int(steps[rows[0]]), first, last + 1)
+        begin = int(begins[steps[rows[0]]])
+        block = timeline.opened.read(f"{MOTION}/nodes", begin + first, begin + last + 1)
         found[rows] = block[nodes[rows] - first]
     return found
