@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from vasc.arrays import Codes, Column, Floats, Ids, Points, Steps
+from vasc.notebook import card, picture_of
 
 
 class Origin(IntEnum):
@@ -81,6 +82,15 @@ class VeinNetwork:
     segment_births: Steps
     segment_kinds: Codes
     retired: Ids = field(default_factory=lambda: np.empty(0, dtype=np.int32))
+
+    def _repr_html_(self) -> str:
+        """Show a small picture in a notebook."""
+        facts = {
+            "nodes": lambda: self.n_vein_nodes,
+            "segments": lambda: self.n_segments,
+            "vein length": lambda: f"{float(self.lengths.sum()):.4g}",
+        }
+        return card("VeinNetwork", facts, lambda: picture_of(self.positions, self.segments))
 
     @property
     def n_nodes(self) -> int:

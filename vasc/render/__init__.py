@@ -1,7 +1,9 @@
 """Timelines in, pictures and films out; matplotlib is loaded when something is drawn."""
 
 from vasc.render.animation import FILM_SUFFIXES, Film, animate
+from vasc.render.births import draw_births
 from vasc.render.files import render
+from vasc.render.genealogy import draw_genealogy
 from vasc.render.growth import GrownGrid, GrowthMap, draw_growth
 from vasc.render.leaf import View, draw_leaf
 from vasc.render.saving import PICTURE_SUFFIXES, save
@@ -28,6 +30,8 @@ __all__ = [
     "UnrolledStyle",
     "View",
     "animate",
+    "draw_births",
+    "draw_genealogy",
     "draw_growth",
     "draw_leaf",
     "draw_sequence",

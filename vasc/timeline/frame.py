@@ -1,5 +1,6 @@
 """One recorded step: the blade, the veins and the sources as they were then."""
 
+from collections.abc import Callable
 from functools import cached_property
 from importlib import import_module
 from typing import Any, Protocol
@@ -14,6 +15,7 @@ from vasc.domain import Blade, Tissue
 from vasc.errors import TimelineError, VascError
 from vasc.fields import Fields
 from vasc.network import NODE_COLUMNS, Origin, SegmentKind, VeinNetwork
+from vasc.notebook import card, picture_of
 from vasc.sources import SourceSet
 from vasc.state import moved, network_from_columns, positions, source_states
 from vasc.states import SourceState
@@ -67,6 +69,25 @@ class Frame:
 
     def __repr__(self) -> str:
         return f"Frame(step={self.step}, time={self.time:g}, nodes={self.n_rows('nodes')})"
+
+    def _repr_html_(self) -> str:
+        """Show a small picture in a notebook."""
+        return card(f"Frame of step {self.step}", self._facts(), self.picture)
+
+    def _facts(self) -> dict[str, Callable[[], object]]:
+        """Give what a notebook shows beside the picture."""
+        return {
+            "time": lambda: f"{self.time:g}",
+            "nodes": lambda: self.network.n_vein_nodes,
+            "segments": lambda: self.network.n_segments,
+            "live sources": lambda: self.sources.n_sources,
+        }
+
+    def picture(self) -> str:
+        """Give a small picture of blade and veins, as HTML for a notebook."""
+        is_leaf = self._timeline.motion != Motion.NONE
+        rings = self.blade.rings if is_leaf else ()
+        return picture_of(self.positions, self.network.segments, rings)
 
     @property
     def motion(self) -> NDArray[np.float64] | None:

@@ -17,6 +17,7 @@ from vasc.state import Tables, table_columns
 from vasc.timeline import guard, layout, opening
 from vasc.timeline.access import OpenFile
 from vasc.timeline.areas import areole_areas
+from vasc.timeline.cards import timeline_card
 from vasc.timeline.data_frames import data_frame
 from vasc.timeline.frame import Frame
 from vasc.timeline.layout import MOTION, TABLES, Motion, count_column
@@ -66,6 +67,8 @@ class Timeline:
     def __repr__(self) -> str:
         state = "complete" if self.is_complete else "not complete"
         return f"Timeline({str(self.path)!r}, frames={self.n_frames}, {state})"
+
+    _repr_html_ = timeline_card
 
     def close(self) -> None:
         """Close the file; what was read already stays usable."""
