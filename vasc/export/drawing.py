@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import groupby, pairwise
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
@@ -31,7 +31,7 @@ class Line:
     Parameters
     ----------
     nodes : tuple of int
-        Rows of its nodes, the first of them proximal.
+        Rows of its nodes, from proximal to distal.
     segments : tuple of int
         Rows of its segments, one less than nodes.
     """
@@ -100,8 +100,9 @@ def lines_of(specimen: Specimen) -> list[Line]:
         Each segment in one of them; lines of the same look follow each other.
     """
     found = []
+    d = specimen.unit.per_segment
     looks = np.stack(
-        [specimen.orders, specimen.kinds, np.round(specimen.widths, 9)], axis=1
+        [specimen.orders, specimen.kinds, np.round(specimen.widths / d, 9)], axis=1
     ).astype(np.float64)
     _, classes = np.unique(looks, axis=0, return_inverse=True)
     for rows in _rows_of_each(classes.ravel()):
@@ -110,11 +111,12 @@ def lines_of(specimen: Specimen) -> list[Line]:
             tuple(pair): row for pair, row in zip(pairs.tolist(), rows.tolist(), strict=True)
         }
         for way in ways(pairs):
-            if (way[0], way[1]) not in by_ends:
-                way.reverse()
-            steps = [step if step in by_ends else step[::-1] for step in pairwise(way)]
-            segments = [by_ends[step] for step in steps]
-            found.append(Line(tuple(way), tuple(segments)))
+            # lines end where a way turns from inward to outward, or back
+            for is_outward, steps in groupby(pairwise(way), by_ends.__contains__):
+                forward = list(steps)
+                course = forward if is_outward else [step[::-1] for step in reversed(forward)]
+                nodes = (course[0][0], *(distal for _, distal in course))
+                found.append(Line(nodes, tuple(by_ends[step] for step in course)))
     return found
 
 

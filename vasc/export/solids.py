@@ -45,7 +45,7 @@ def packed(mesh: StemMesh, suffix: str, heading: tuple[str, ...] = ()) -> bytes:
             )
             return bytes(files["model.gltf"])
         case ".obj":
-            return str(solid.export(file_type="obj", header="\n".join(plain))).encode()
-    begin, _, rest = bytes(solid.export(file_type="ply")).partition(b"end_header\n")
-    comments = "".join(f"comment {line}\n" for line in plain)
-    return begin + comments.encode() + b"end_header\n" + rest
+            return str(solid.export(file_type="obj", header="\n# ".join(plain))).encode()
+    first, form, rest = bytes(solid.export(file_type="ply")).split(b"\n", 2)
+    comments = [f"comment {line}".encode() for line in plain]
+    return b"\n".join([first, form, *comments, rest])

@@ -21,6 +21,8 @@ TABLES = ("frames", "nodes", "segments", "sources", "events", "areoles", "states
 """What is exported; each is one CSV file."""
 DESCRIPTION = "csv-metadata.json"
 """The file that says what the others hold, as the standard "CSV on the Web" has it."""
+WITHOUT_ID = ("frames", "states")
+"""Tables to whose rows nothing refers: frames go by their step, states say whose they are."""
 AXES = {
     "position": ("x", "y", "z"),
     "material": ("x", "y", "z"),
@@ -72,7 +74,8 @@ def data_frames(timeline: Timeline, step: int = -1) -> dict[str, Any]:
     Returns
     -------
     dict of str to pandas.DataFrame
-        What :func:`columns_of` gives; the index is the id, of frames the step.
+        What :func:`columns_of` gives; the index is the id, of frames the step. The ``id`` of states
+        is that of the node or source.
 
     Raises
     ------
@@ -85,7 +88,9 @@ def data_frames(timeline: Timeline, step: int = -1) -> dict[str, Any]:
     found = {}
     for name, columns in columns_of(timeline, step).items():
         frame = pandas.DataFrame(columns)
-        found[name] = frame.set_index("step") if name == "frames" else frame.rename_axis("id")
+        if name == "frames":
+            frame = frame.set_index("step")
+        found[name] = frame if name in WITHOUT_ID else frame.rename_axis("id")
     return found
 
 
@@ -110,7 +115,7 @@ def write_tables(timeline: Timeline, folder: Path, step: int = -1) -> None:
     described = []
     for name, columns in _columns_with(timeline, exported).items():
         n_rows = len(next(iter(columns.values())))
-        numbered = columns if name == "frames" else {"id": np.arange(n_rows), **columns}
+        numbered = columns if name in WITHOUT_ID else {"id": np.arange(n_rows), **columns}
         with (folder / f"{name}.csv").open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(numbered)
