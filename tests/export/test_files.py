@@ -1,11 +1,17 @@
 """Files appear whole or not at all, and replace nothing that is not theirs."""
 
+import re
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
+from reference.export_configs import KINDS, LEAF
 
+from vasc.cli import main
+from vasc.config import load
 from vasc.errors import OutputError, VascError
+from vasc.experiment import run
 from vasc.export import DOCUMENTS, MESH_SUFFIXES, SUFFIXES, export, specimen
 from vasc.timeline import Timeline
 
@@ -136,3 +142,23 @@ def test_without_trimesh_the_extra_is_named(runs, tmp_path, monkeypatch):
     with pytest.raises(VascError, match=r"vasc\[mesh\]"):
         export(runs.open, tmp_path / "a.gltf")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_page_and_the_help_name_every_suffix(capsys):
+    page = (Path(__file__).resolve().parents[2] / "docs" / "exports.md").read_text()
+    table = "".join(line for line in page.splitlines() if line.startswith("| `."))
+    assert {word.strip("`") for word in re.findall(r"`\.\w+`", table)} >= set(SUFFIXES)
+    assert main(["export", "--help"]) == 0
+    words = set(re.findall(r"\w+", capsys.readouterr().out))
+    assert {suffix[1:] for suffix in SUFFIXES} <= words
+
+
+def test_a_drawing_can_be_the_blade_of_another_run(runs, tmp_path):
+    export(runs.open, tmp_path / "leaf.svg")
+    text = LEAF.format(**KINDS["open"])
+    domain = 'file = "leaf.svg"\nattachment = "origin"'
+    (tmp_path / "again.toml").write_text(text.replace('shape = "ovate"', domain))
+    run(load(str(tmp_path / "again.toml")), tmp_path / "again.h5", steps=1)
+    with Timeline(tmp_path / "again.h5") as again, Timeline(runs.open) as first:
+        areas = [timeline.frame(0).blade.area for timeline in (again, first)]
+    assert areas[0] == pytest.approx(areas[1], rel=1e-6)
