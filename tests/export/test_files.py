@@ -1,8 +1,10 @@
 """Files appear whole or not at all, and replace nothing that is not theirs."""
 
+import json
 import re
 import sys
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -107,6 +109,51 @@ def test_nothing_is_left_when_writing_fails(runs, tmp_path, monkeypatch):
         with pytest.raises(OSError, match="disk full"):
             export(runs.open, tmp_path / f"a{suffix}")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_an_older_folder_is_back_when_its_place_cannot_be_taken(runs, tmp_path, monkeypatch):
+    folder = export(runs.open, tmp_path / "a.csv", 10)
+    nodes = (folder / "nodes.csv").read_text()
+    rename = Path.rename
+
+    def fail(self, target):
+        if target == folder and (self / "nodes.csv").read_text() != nodes:
+            raise OSError("not now")
+        return rename(self, target)
+
+    monkeypatch.setattr(Path, "rename", fail)
+    with pytest.raises(OSError, match="not now"):
+        export(runs.open, folder, force=True)
+    assert (folder / "nodes.csv").read_text() == nodes
+    assert [path.name for path in tmp_path.iterdir()] == ["a.csv"]
+
+
+def test_a_link_to_a_folder_stays_one(runs, tmp_path):
+    folder = export(runs.open, tmp_path / "a.csv", 10)
+    link = tmp_path / "b.csv"
+    link.symlink_to(folder)
+    young = (folder / "nodes.csv").read_text()
+    export(runs.open, link, force=True)
+    assert link.is_symlink()
+    assert len((folder / "nodes.csv").read_text()) > len(young)
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+@pytest.mark.parametrize("suffix", [".graphml", ".svg", ".vtp", ".geojson", ".mtg"])
+def test_a_strange_title_breaks_no_file(runs, suffix, tmp_path):
+    (tmp_path / "a.toml").write_text(
+        LEAF.format(**KINDS["open"]).replace("A leaf --", r"A\n\u0001\u001b]--> <!-- \ufffe")
+    )
+    run(load(str(tmp_path / "a.toml")), tmp_path / "--a.h5", steps=20)
+    file = export(tmp_path / "--a.h5", tmp_path / f"a{suffix}")
+    assert b"\x01" not in file.read_bytes()
+    if suffix in (".graphml", ".svg", ".vtp"):
+        ElementTree.parse(file)
+    elif suffix == ".geojson":
+        json.loads(file.read_text())
+    else:
+        lines = file.read_text().splitlines()
+        assert lines[3] == "CODE:\tFORM-A"
 
 
 def test_options_go_with_their_formats_alone(runs, tmp_path):

@@ -170,13 +170,19 @@ def _write(output: Path, content: bytes, *, force: bool) -> None:
 @contextmanager
 def _new_folder(folder: Path) -> Iterator[Path]:
     """Give an empty folder that takes its place, and that of an older one, when it is filled."""
+    folder = folder.resolve()
     ready, old = beside(folder), beside(folder)
     ready.mkdir()
     try:
         yield ready
         if folder.exists():
             folder.rename(old)
-        ready.rename(folder)
+        try:
+            ready.rename(folder)
+        except BaseException:
+            if old.exists():
+                old.rename(folder)
+            raise
     finally:
         for left in (ready, old):
             shutil.rmtree(left, ignore_errors=True)

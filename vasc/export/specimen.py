@@ -13,6 +13,7 @@ from vasc.analysis.tubes import strand_radii
 from vasc.analysis.units import LengthUnit
 from vasc.analysis.widths import WidthParameters, radii, segment_radii
 from vasc.arrays import Codes, Floats, Ids, Points, Steps
+from vasc.export.words import plain
 from vasc.network import Origin, SegmentKind
 from vasc.timeline import Frame, Timeline
 from vasc.timeline.stems import is_stem
@@ -115,9 +116,8 @@ class Specimen:
     @property
     def heading(self) -> tuple[str, str, str]:
         """Lines that say what is in a file: the run, the step and the unit."""
-        title = " ".join(self.title.split())
         return (
-            f"vasc: {self.run}" + (f", {title}" if title else ""),
+            f"vasc: {self.run}" + (f", {self.title}" if self.title else ""),
             f"step {self.step}, time {self.time:g}, model {self.model}",
             f"lengths in {self.unit_text}",
         )
@@ -200,8 +200,8 @@ def _cut(timeline: Timeline, frame: Frame, widths: Floats) -> Specimen:
     ends = np.stack([directions.proximal, directions.distal], axis=1)
     rings = frame.blade.rings if timeline.dimensions == 2 else ()
     return Specimen(
-        run=timeline.path.name,
-        title=str(timeline.config.get("title") or ""),
+        run=plain(timeline.path.name),
+        title=plain(str(timeline.config.get("title") or "")),
         model=timeline.model,
         step=frame.step,
         time=frame.time,

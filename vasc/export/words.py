@@ -3,6 +3,17 @@
 from collections.abc import Iterable
 
 
+def plain(text: str) -> str:
+    r"""Give a text on one line, without what no file of text may hold.
+
+    Examples
+    --------
+    >>> plain("a\nleaf\x01")
+    'a leaf'
+    """
+    return " ".join("".join(each if each.isprintable() else " " for each in text).split())
+
+
 def as_bytes(lines: Iterable[str]) -> bytes:
     """Give lines as the bytes of a text file in UTF-8."""
     return ("\n".join(lines) + "\n").encode()
