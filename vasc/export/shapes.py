@@ -104,7 +104,7 @@ def _features(specimen: Specimen) -> list[dict[str, Any]]:
                 "type": "Feature",
                 "id": "outline",
                 "properties": {"what": "outline"},
-                "geometry": json.loads(shapely.to_geojson(outline_of(specimen))),
+                "geometry": shapely.geometry.mapping(outline_of(specimen)),
             }
         )
     columns = edge_columns(specimen)
