@@ -17,6 +17,8 @@ class Origin(IntEnum):
     SOURCE = 2
     REFINEMENT = 3
     PRIMORDIUM = 4
+    CANAL = 5
+    """A cell of a canal that has differentiated as a whole."""
 
 
 class SegmentKind(IntEnum):
@@ -30,7 +32,7 @@ class SegmentKind(IntEnum):
 NODE_COLUMNS = {
     "birth": Column("i4", "step of birth"),
     "parent": Column("i4", "node it extends, -1 for a seed"),
-    "origin": Column("i1", "0 seed, 1 extension, 2 source, 3 refinement, 4 primordium"),
+    "origin": Column("i1", "0 seed, 1 extension, 2 source, 3 refinement, 4 primordium, 5 canal"),
     "source": Column("i4", "source that caused it (the nearest that pulled), -1 if none"),
     "position": Column("f8", "position at birth", unit="length", shape=(2,)),
     "material": Column("f8", "material coordinates", unit="length", shape=(2,)),

@@ -123,7 +123,10 @@ def test_stats_for_scripts_have_the_keys_that_are_promised(leaf, capsys):
     stats = json.loads(output(["stats", leaf, "--json"], capsys))
     promised = "step, time, blade_length, blade_area, nodes, segments, components, cycles"
     promised += ", vein_length, vein_density, areoles, areole_area_mean, areole_area_cv"
-    promised += ", free_ends, junction_degree"
+    promised += ", free_ends, junction_degree, areole_circularity_median, areole_elongation_median"
+    promised += ", areole_corners_mean, free_ends_per_areole, mst_ratio, density_x_sqrt_areole"
+    promised += ", distance_to_vein_mean, bohn_residual_median, bohn_residual_shuffled"
+    promised += ", loop_asymmetry, loop_asymmetry_shuffled, orders"
     assert set(promised.split(", ")) <= set(stats)
     assert stats["components"] == 1
     assert stats["cycles"] == stats["segments"] - stats["nodes"] + 1 > 0
@@ -132,7 +135,9 @@ def test_stats_for_scripts_have_the_keys_that_are_promised(leaf, capsys):
     young = json.loads(output(["stats", leaf, "--json", "--step", "10"], capsys))
     assert young["step"] == 10
     assert young["nodes"] < stats["nodes"]
-    assert f"nodes             {stats['nodes']:,}\n" in output(["stats", leaf], capsys)
+    shown = dict(line.split(maxsplit=1) for line in output(["stats", leaf], capsys).split("\n")[:8])
+    assert shown["nodes"] == f"{stats['nodes']:,}"
+    assert set(stats["orders"]["1"]) == {"length", "segments", "width_mean"}
 
 
 def test_a_step_that_is_not_recorded_is_refused(leaf, capsys):

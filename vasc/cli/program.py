@@ -9,6 +9,7 @@ import typer
 from vasc.cli import (
     animate,
     check,
+    compare,
     configs,
     events,
     export,
@@ -34,6 +35,7 @@ VERBS = (
     events,
     lineage,
     stats,
+    compare,
     render,
     animate,
     export,
@@ -46,7 +48,11 @@ VERBS = (
 GROUPS = (
     (
         check,
-        {"sequence": check.SEQUENCE_EXAMPLES, "connectivity": check.CONNECTIVITY_EXAMPLES},
+        {
+            "sequence": check.SEQUENCE_EXAMPLES,
+            "connectivity": check.CONNECTIVITY_EXAMPLES,
+            "strand": check.STRAND_EXAMPLES,
+        },
     ),
 )
 

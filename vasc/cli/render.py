@@ -17,7 +17,7 @@ def render(
     path: RunFile,
     output: Output,
     step: Steps = None,
-    color: Color = "width",
+    color: Color = None,
     sources: WithSources = False,
     scale_bar: ScaleBar = True,
     growth: Annotated[
@@ -29,7 +29,7 @@ def render(
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
-    """Draw a leaf or stem at its last step or another one, as png, svg or pdf."""
+    """Draw a leaf, stem or tissue at its last step or another one, as png, svg or pdf."""
     from vasc import render as drawing
     from vasc.cli.printing import print_json
     from vasc.cli.run import check_picture

@@ -38,7 +38,9 @@ FOLDERS = {".csv": (DESCRIPTION, *(f"{name}.csv" for name in TABLES))}
 SERIES = ".pvd"
 """Suffix of a series of steps: a file, and a folder of the same name without the suffix."""
 SUFFIXES = (*FOLDERS, *DOCUMENTS, *TREES, *MESH_SUFFIXES, SERIES)
-"""All suffixes known."""
+"""All suffixes of :func:`export`."""
+TISSUE_SUFFIX = ".toml"
+"""Suffix of a tissue, see :func:`vasc.export.export_tissue`."""
 
 
 def export(
@@ -110,10 +112,7 @@ def check_output(output: Path, *, force: bool = False) -> None:
         name exists and ``force`` is not set, or is not an older export.
     """
     suffix = output.suffix.lower()
-    if suffix not in SUFFIXES:
-        raise OutputError(f"{output}: suffix {output.suffix!r} is not one of {', '.join(SUFFIXES)}")
-    if not output.parent.is_dir():
-        raise OutputError(f"{output}: folder {output.parent} does not exist")
+    check_suffix(output, SUFFIXES, elsewhere=(TISSUE_SUFFIX,))
     if suffix in FOLDERS:
         _check_folder(output, FOLDERS[suffix], force=force)
         return
@@ -123,6 +122,21 @@ def check_output(output: Path, *, force: bool = False) -> None:
         raise OutputError(f"{output}: exists already; use --force to replace it")
     if suffix == SERIES:
         _check_folder(output.with_suffix(""), (), force=force)
+
+
+def check_suffix(output: Path, suffixes: tuple[str, ...], elsewhere: tuple[str, ...] = ()) -> None:
+    """Refuse a file of another suffix, or in a folder that is not there.
+
+    Raises
+    ------
+    OutputError
+        If it is one; the message names the suffixes, and those that are written ``elsewhere``.
+    """
+    if output.suffix.lower() not in suffixes:
+        known = ", ".join([*suffixes, *elsewhere])
+        raise OutputError(f"{output}: suffix {output.suffix!r} is not one of {known}")
+    if not output.parent.is_dir():
+        raise OutputError(f"{output}: folder {output.parent} does not exist")
 
 
 def _content(timeline: Timeline, suffix: str, step: int, spanning: bool) -> bytes:

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from vasc.areoles import AREOLE_COLUMNS, BOUNDARY_COLUMNS, AreoleSet, areoles_from_columns
 from vasc.arrays import Points
 from vasc.canals import CANAL_TABLES, CanalSet, canals_from_columns
-from vasc.domain import Blade
+from vasc.domain import Blade, Tissue
 from vasc.errors import TimelineError, VascError
+from vasc.fields import Fields
 from vasc.network import NODE_COLUMNS, Origin, SegmentKind, VeinNetwork
 from vasc.sources import SourceSet
 from vasc.state import moved, network_from_columns, positions, source_states
@@ -30,6 +31,13 @@ class Recorded(Protocol):
     @property
     def motion(self) -> Motion:
         """How the file tells where everything is at a step."""
+
+    @property
+    def tissue(self) -> Tissue | None:
+        """The cells, None in a run without."""
+
+    def fields(self, step: int) -> Fields:
+        """Read the fields of a step."""
 
     def table(self, name: str, column: str, start: int = 0, stop: int | None = None) -> NDArray:
         """Read rows of a column."""
@@ -103,6 +111,16 @@ class Frame:
             return initial.scaled(scale)
         rings = [moved(ring, motion) for ring in initial.rings]
         return Blade.from_rings(rings, moved(initial.seeds, motion))
+
+    @property
+    def tissue(self) -> Tissue | None:
+        """The cells of the blade; None in a run without cells."""
+        return self._timeline.tissue
+
+    @cached_property
+    def fields(self) -> Fields | None:
+        """Auxin and its carriers in the cells and walls at this step; None without cells."""
+        return None if self.tissue is None else self._timeline.fields(self.step)
 
     @cached_property
     def positions(self) -> Points:
