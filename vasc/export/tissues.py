@@ -11,11 +11,10 @@ from vasc.arrays import Points
 from vasc.domain import Tissue
 from vasc.domain.tissue_parameters import VoronoiCells
 from vasc.errors import VascError
-from vasc.export.files import check_suffix
+from vasc.export.files import TISSUE_SUFFIX, check_suffix
 from vasc.timeline import Frame, Timeline
 from vasc.timeline.stems import is_stem
 
-TISSUE_SUFFIX = ".toml"
 CELL = 2.0
 """Width of a cell in D of the leaf, when not given."""
 SLACK = 0.25
