@@ -58,18 +58,6 @@ def tissue_in(ring: ArrayLike, seed: int = 1) -> Tissue:
     return voronoi_in(blade, Streams(seed, ("tissue",))["tissue"])
 
 
-def margin_of(tissue: Tissue) -> NDArray[np.int32]:
-    """Give the cells of the margin of a round tissue, those with a corner on it, around it."""
-    import shapely
-
-    line = tissue.blade.polygon.boundary
-    is_on = shapely.distance(shapely.points(tissue.corners), line) < 1e-6
-    owners = np.repeat(np.arange(tissue.n_cells), np.diff(tissue.starts))
-    cells = np.unique(owners[is_on]).astype(np.int32)
-    x, y = (tissue.positions[cells] - tissue.positions[cells].mean(axis=0)).T
-    return cells[np.argsort(np.arctan2(y, x))]
-
-
 def settle(
     tissue: Tissue,
     transport: Transport,

@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from vasc import kernels
 from vasc.domain.sides import FREE, Rings, areas_of, sides_of, walls_of
 from vasc.errors import OutlineError
 
@@ -61,13 +62,8 @@ def pinched_cells(rings: Rings) -> NDArray[np.int64]:
 
 def parts_of(rings: Rings) -> NDArray[np.int64]:
     """Give the part that each cell is of, shape (n,)."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    walls, lengths = walls_of(rings, sides_of(rings))
-    graph = coo_array((lengths, tuple(walls.T)), shape=(rings.n_cells, rings.n_cells))
-    _, parts = connected_components(graph, directed=False)
-    return np.asarray(parts, dtype=np.int64)
+    walls, _ = walls_of(rings, sides_of(rings))
+    return kernels.components.component_labels(walls, rings.n_cells).astype(np.int64)
 
 
 def _apart(rings: Rings, parts: NDArray[np.int64], counts: NDArray[np.int64]) -> str:

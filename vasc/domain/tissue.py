@@ -113,11 +113,17 @@ class Tissue:
         near, _ = cKDTree(self.positions).query(xy)
         return ~self.blade.contains(xy) & (near > 1.0)
 
-    def vein_distances(self, is_vein: NDArray[np.bool_]) -> Floats:
-        """Give the distance of each cell to the nearest that is vein, shape (n,); some is."""
+    def distances_from(self, cells: Ids | NDArray[np.bool_]) -> Floats:
+        """Give the straight distance of each cell from the nearest of some, shape (n,).
+
+        Parameters
+        ----------
+        cells : ndarray of int32, or of shape (n,), bool
+            Their ids, or which ones they are; at least one.
+        """
         from scipy.spatial import cKDTree
 
-        distances, _ = cKDTree(self.positions[is_vein]).query(self.positions)
+        distances, _ = cKDTree(self.positions[cells]).query(self.positions)
         return np.asarray(distances, dtype=np.float64)
 
     def nearest_cells(self, points: ArrayLike) -> Ids:

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vasc import kernels
 from vasc.arrays import Points
 from vasc.domain.blade import Blade
 from vasc.domain.parts import sound_cells
@@ -138,15 +139,12 @@ def _moved(points: Points, cut: tuple[NDArray[Any], NDArray[np.int64]], blade: B
 def _joined(pieces: NDArray[Any]) -> Rings:
     """Give cells by the corners they share; corners that hardly differ are one."""
     import shapely
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
     oriented = shapely.orient_polygons(pieces)
     points, cells = shapely.get_coordinates(shapely.get_exterior_ring(oriented), return_index=True)
     pairs = cKDTree(points).query_pairs(SHORTEST_WALL, output_type="ndarray")
-    graph = coo_array((np.ones(len(pairs)), tuple(pairs.T)), shape=(len(points), len(points)))
-    _, groups = connected_components(graph, directed=False)
+    groups = kernels.components.component_labels(pairs, len(points))
     _, leading = np.unique(groups, return_index=True)
     # the first corner of a ring is its last, too: what repeats the one before goes
     is_new = np.ones(len(points), dtype=np.bool_)

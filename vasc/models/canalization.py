@@ -15,7 +15,7 @@ from vasc import kernels
 from vasc.arrays import NULL, Codes, Floats
 from vasc.errors import RunError
 from vasc.events import EventKind
-from vasc.fields import Fields
+from vasc.fields import VORTEX, Fields
 from vasc.models.base import newest
 from vasc.models.canal_cells import CanalCells
 from vasc.models.cell_sources import AnyCellSources
@@ -28,8 +28,6 @@ from vasc.parameters import quantity
 from vasc.state import State, Tables
 from vasc.streams import Streams
 
-VORTEX = 1.1
-"""A cell that passes more than that, over all that is made, is part of a vortex."""
 DIVERGED = 1e3
 """Nothing that settles passes more than that through one cell, over all that is made."""
 

@@ -6,7 +6,7 @@ the closed rule predicts the set of veins that canals reach.
 """
 
 from collections.abc import Callable, Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from math import sqrt
 from typing import Any
 
@@ -167,11 +167,6 @@ def hit_rates(
         exact = [one.is_hit for one in found if one.q < EXACT[tissue]]
         rows.append(names | summary(found) | _rate("hit_exact", exact))
     return rows
-
-
-def as_columns(found: list[Outcome]) -> list[dict[str, Any]]:
-    """Give outcomes as a plain table, for whoever wants each of them."""
-    return [asdict(one) for one in found]
 
 
 def _rate(name: str, flags: list[bool]) -> dict[str, Any]:

@@ -15,7 +15,6 @@ from vasc.streams import Streams
 from vasc.validation.canalization.leaves import leaf
 from vasc.validation.canalization.protocols import PROTOCOLS, Protocol
 from vasc.validation.canalization.rates import wilson
-from vasc.validation.canalization.scenarios import apart
 from vasc.validation.canalization.settled import settle
 
 N_SOURCES = 45
@@ -67,7 +66,7 @@ def veins_one_by_one(protocol: Protocol, seed: int) -> list[dict[str, Any]]:
 
 def dart(tissue: Tissue, cells: Ids, distance: float, generator: np.random.Generator) -> int | None:
     """Throw darts at cells until one is as far from all veins as asked; None for none."""
-    is_free = apart(tissue, cells) >= distance
+    is_free = tissue.distances_from(cells) >= distance
     thrown = generator.integers(tissue.n_cells, size=DARTS)
     hits = thrown[is_free[thrown]]
     return int(hits[0]) if len(hits) else None

@@ -23,7 +23,7 @@ from vasc.streams import Streams
 from vasc.validation.canalization.geometric import ratio_to_second
 from vasc.validation.canalization.protocols import Protocol
 from vasc.validation.canalization.rates import wilson
-from vasc.validation.canalization.scenarios import CLEARANCE, TISSUES, apart
+from vasc.validation.canalization.scenarios import CLEARANCE, TISSUES
 from vasc.validation.canalization.settled import Settled, settle
 
 COLUMNS, ROWS = 31, 17
@@ -179,7 +179,7 @@ def _drawn_case(tissue: str, protocol: Protocol, seed: int) -> Settled:
     """Let the canal of a source anywhere form."""
     cells = TISSUES[tissue](COLUMNS, ROWS, seed)
     veins = [cells.nearest_cells(line) for line in FIGURE_VEINS]
-    left, right = (apart(cells, vein) for vein in veins)
+    left, right = (cells.distances_from(vein) for vein in veins)
     is_free = (np.minimum(left, right) >= CLEARANCE) & (np.abs(left - right) >= 1.0)
     source = Streams(seed, ("source",))["source"].choice(np.flatnonzero(is_free))
     return settle(cells, protocol.transport, veins, [int(source)], protocol.background)
