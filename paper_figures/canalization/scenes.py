@@ -25,6 +25,7 @@ from vasc.models.transport import (
     PooledTransport,
     Transport,
 )
+from vasc.render import TissueStyle
 from vasc.simulation import simulate
 from vasc.state import State
 from vasc.streams import Streams
@@ -35,8 +36,8 @@ MODELS: dict[str, tuple[Transport, float]] = {
     "pool, background 0.5": (PooledTransport(), 0.5),
 }
 """Transport and background production, by the name in pictures; defaults of vasc."""
-INK, GREEN, RED, ORANGE, BLUE = "#202020", "#1b9e3e", "#d3122e", "#e8590c", "#2b6cc4"
-GREY = "#c4c8cc"
+GREEN, RED, ORANGE = TissueStyle.sink, TissueStyle.source, TissueStyle.arrow
+INK, BLUE = "#202020", "#2b6cc4"
 
 
 def options(script: str, help_of_size: str, size: int) -> argparse.Namespace:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vasc.arrays import Floats, Ids, Points, as_points
 from vasc.domain.blade import Blade
-from vasc.domain.sides import FREE, Rings, Sides, outline_sides, sides_of
+from vasc.domain.sides import FREE, CellRings, Sides, outline_sides, sides_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +79,7 @@ class Tissue:
         exact = np.ascontiguousarray(self.corners + 0.0).view(np.complex128).ravel()
         shared, rows = np.unique(exact, return_inverse=True)
         places = np.stack([shared.real, shared.imag], axis=1)
-        return sides_of(Rings(places, rows, self.starts.astype(np.int64)))
+        return sides_of(CellRings(places, rows, self.starts.astype(np.int64)))
 
     @cached_property
     def is_margin(self) -> NDArray[np.bool_]:

@@ -9,7 +9,7 @@ from vasc import kernels
 from vasc.arrays import Points
 from vasc.domain.blade import Blade
 from vasc.domain.parts import sound_cells
-from vasc.domain.sides import Rings, areas_of
+from vasc.domain.sides import CellRings, areas_of
 from vasc.domain.tilings import tissue_of_rings
 from vasc.domain.tissue import Tissue
 from vasc.errors import OutlineError
@@ -136,7 +136,7 @@ def _moved(points: Points, cut: tuple[NDArray[Any], NDArray[np.int64]], blade: B
     return np.where((blade.contains(means) & (weights > 0.0))[:, None], means, points)
 
 
-def _joined(pieces: NDArray[Any]) -> Rings:
+def _joined(pieces: NDArray[Any]) -> CellRings:
     """Give cells by the corners they share; corners that hardly differ are one."""
     import shapely
     from scipy.spatial import cKDTree
@@ -153,7 +153,7 @@ def _joined(pieces: NDArray[Any]) -> Rings:
     is_new[is_last] = False
     rows, owners = groups[is_new], cells[is_new]
     counts = np.bincount(owners, minlength=len(pieces))
-    rings = Rings(points[leading], rows.astype(np.int64), np.cumsum([0, *counts.tolist()]))
+    rings = CellRings(points[leading], rows.astype(np.int64), np.cumsum([0, *counts.tolist()]))
     rings = rings.only(counts > 2)
     areas, _ = areas_of(rings)
     return rings.only(areas > SHORTEST_WALL**2)

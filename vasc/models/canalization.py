@@ -63,7 +63,13 @@ class Canalization(TissueModel):
     settling: Settling
 
     def advance(self, state: State, streams: Streams) -> State:
-        """Advance one step: inject, transport, adapt; canals at rest differentiate."""
+        """Advance one step: inject, transport, adapt; canals at rest differentiate.
+
+        Raises
+        ------
+        RunError
+            If the flux grows without bound, or the concentrations cannot be solved for.
+        """
         cells, began, may_inject = newest(state, Progress)
         fields, step = state.fields, state.step + 1
         assert fields is not None, "a state of a tissue"
