@@ -12,10 +12,10 @@ import numpy as np
 from vasc.arrays import Floats, Ids, Points
 from vasc.domain import Blade, Tissue
 from vasc.domain.voronoi import voronoi_in
-from vasc.models.transport import FacilitatedDiffusion, PooledTransport
+from vasc.models.transport import FacilitatedDiffusion
 from vasc.streams import Streams
 from vasc.validation.canalization.geometric import closed_ends
-from vasc.validation.canalization.protocols import Protocol
+from vasc.validation.canalization.protocols import PROTOCOLS, Protocol
 from vasc.validation.canalization.scenarios import random_source
 from vasc.validation.canalization.settled import settle
 
@@ -41,7 +41,7 @@ AREOLE_PROTOCOLS = {
             Protocol(f"facilitated S={s}", FacilitatedDiffusion(gain=GAIN, saturation=GAIN / s))
             for s in (1, 4, 16)
         ),
-        Protocol("pool, background", PooledTransport(), 0.5),
+        PROTOCOLS["pool, background"],
     )
 }
 """Protocols by name; S is the gain over the saturation, which tells how wide a strand is."""

@@ -21,6 +21,8 @@ N_SOURCES = 45
 """Sources of a leaf."""
 FIRST, SHRINKING, LEAST = 12.0, 0.9, 2.0
 """Birth distance at first, its ratio from one to the next, and its end, in D."""
+COARSE = 1.0
+"""Tolerance of a step: many canals are asked for, and only where they end."""
 DARTS = 1000
 """Darts thrown before the birth distance shrinks."""
 
@@ -46,7 +48,7 @@ def veins_one_by_one(protocol: Protocol, seed: int) -> list[dict[str, Any]]:
             distance *= SHRINKING
             continue
         strand = settle(
-            tissue, protocol.transport, veins, [source], protocol.background, 1.0
+            tissue, protocol.transport, veins, [source], protocol.background, COARSE
         ).strand
         rows.append(
             {

@@ -17,6 +17,9 @@ from vasc.models.transport import Transport
 from vasc.simulation import simulate
 from vasc.streams import Streams
 
+TOLERANCE = Settling().tolerance
+"""Largest change of a wall in a step, relative to its state plus 1, where nothing else is said."""
+
 
 @dataclass(frozen=True)
 class Settled:
@@ -57,7 +60,7 @@ def settle(
     veins: Sequence[Ids],
     sources: Sequence[int] | Ids,
     background: float = 0.0,
-    tolerance: float = 0.3,
+    tolerance: float = TOLERANCE,
     noise: float = 0.0,
     seed: int = 1,
 ) -> Settled:

@@ -30,6 +30,8 @@ SPACING = 3.0
 """Sources are not nearer to each other or to the base, in D."""
 KILL_DISTANCE = 1.0
 """Of the space colonization, in D."""
+COARSE = 1.0
+"""Tolerance of a step: only where canals run is asked for."""
 NEAR = 1.5
 """Two patterns are at one place if they are not farther apart, in D."""
 SAMPLING = 0.25
@@ -58,7 +60,7 @@ def canalized(tissue: Tissue, sources: Ids, base: int) -> tuple[Pattern, dict[st
         With how many canals have ``formed``, and the ``cycles`` of activated walls.
     """
     transport = FacilitatedDiffusion(gain=GAIN / len(sources) ** 2, saturation=GAIN)
-    settled = settle(tissue, transport, [np.array([base], np.int32)], sources, 0.0, 1.0)
+    settled = settle(tissue, transport, [np.array([base], np.int32)], sources, tolerance=COARSE)
     pieces = {
         (min(a, b), max(a, b))
         for strand in settled.strands
