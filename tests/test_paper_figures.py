@@ -185,7 +185,7 @@ def test_canals_are_poor_in_auxin_by_facilitated_diffusion_and_rich_by_a_pool(mo
 def test_walls_that_saturate_later_lead_to_fewer_ends(monkeypatch):
     figure = canal_script("areoles", monkeypatch)
     tissue = figure.tissue_in(figure.RING * 0.7, seed=2)
-    veins = [figure.margin_of(tissue)]
+    veins = [tissue.margins[0][:-1]]
     source = int(tissue.nearest_cells([(0.0, 0.0)])[0])
     ends = []
     for ratio in (1, 256):

@@ -44,5 +44,7 @@ FIELD_COLUMNS: Columns = {
     "roles": Column("i1", "0 ground, 1 source, 2 vein"),
 }
 """Columns of the group ``fields`` of a timeline; a step is a slice, row = cell or wall id."""
+VORTEX = 1.1
+"""A cell that passes more than that, over all that is made, is part of a vortex."""
 OF_WALLS = ("flux", "carriers")
 """Fields with a row a wall; the others have one a cell."""

@@ -115,7 +115,8 @@ class State:
     step : int
         Loop count; 0 is the initial state.
     time : float
-        Model time, in steps; ``[units]`` gives a step a duration.
+        Model time: in steps, to which ``[units]`` gives a duration; on a tissue in the
+        unit of the model, as turnover times of a wall.
     blade : Blade or None
         The blade at this time, in real size; None for a stem.
     motion : ndarray of shape (2, 3), float64, or None
@@ -142,7 +143,7 @@ class State:
     tissue : Tissue or None
         The cells of the blade, the same in all states of a run; None without cells.
     fields : Fields or None
-        Auxin and carriers in them at this time.
+        Auxin and carriers in them at this time; None without cells.
     """
 
     step: int

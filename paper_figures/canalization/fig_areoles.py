@@ -1,13 +1,13 @@
 """Canals of one source in an areole, for walls that saturate sooner and sooner.
 
-Crosses are the relative neighbours of the source among the veins (Runions 2008, equation 4.1),
+Crosses are the relative neighbors of the source among the veins (Runions 2008, equation 4.1),
 where the closed model of venation would lead strands.
 """
 
 from pathlib import Path
 
 import numpy as np
-from scenes import RED, margin_of, options, row_of, settle, strand_of, tissue_in
+from scenes import RED, options, row_of, settle, strand_of, tissue_in
 
 from vasc.models.transport import FacilitatedDiffusion
 from vasc.render import TissueStyle, draw_tissue, save
@@ -30,13 +30,14 @@ RING = 12.5 * np.array(
 PLACES = {"central": (0.3, 0.2), "aside": (-4.0, 3.0)}
 STYLE = TissueStyle(head_distance=17.0)
 GAP = 2.0
-"""Of relative neighbours nearer to each other than that, the nearer to the source counts, in D."""
+"""Of relative neighbors nearer to each other than that, the nearer to the source counts, in D."""
 
 
 def main(output: Path, size: int = 12) -> None:
     """Draw the figure; ``size`` is about half the width of the areole in cells."""
     tissue = tissue_in(RING * size / 12.5, seed=2)
-    veins = [margin_of(tissue)]
+    # a ring comes back to its first cell, which is in the vein once
+    veins = [tissue.margins[0][:-1]]
     figure, axes = row_of(8, (7.0, 3.95), rows=2)
     panels = iter(axes)
     for name, place in PLACES.items():
@@ -52,7 +53,7 @@ def main(output: Path, size: int = 12) -> None:
             ax.set_title(
                 f"S = {ratio}: ends {strand.n_landings}, width {strand.width:.1f}", fontsize=8
             )
-            print(f"{name}, S = {ratio}: {strand.n_landings} ends, {len(crosses)} neighbours")
+            print(f"{name}, S = {ratio}: {strand.n_landings} ends, {len(crosses)} neighbors")
     save(figure, output)
 
 

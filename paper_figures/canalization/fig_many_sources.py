@@ -8,7 +8,18 @@ from pathlib import Path
 import numpy as np
 from fig_sequential_leaf import leaf_ring
 from numpy.typing import NDArray
-from scenes import RED, draw_lines, draw_outline, options, ring, row_of, settle, show_all, tissue_in
+from scenes import (
+    GREEN,
+    RED,
+    draw_lines,
+    draw_outline,
+    options,
+    ring,
+    row_of,
+    settle,
+    show_all,
+    tissue_in,
+)
 
 from vasc.analysis.widths import pipes
 from vasc.domain.tissue import Tissue
@@ -88,7 +99,7 @@ def main(output: Path, size: int = 34) -> None:
         show_all(ax, tissue)
         x, y = tissue.positions[sources].T
         ax.plot(x, y, "o", color=RED, ms=3.5, mew=0, zorder=5)
-        ring(ax, tissue.positions[base], "#1b9e3e", 7.0)
+        ring(ax, tissue.positions[base], GREEN, 7.0)
 
     veins = [np.array([base], dtype=np.int32)]
     # walls saturate when all sources flow through them, so that canals gain by joining

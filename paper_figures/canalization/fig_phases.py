@@ -25,19 +25,16 @@ RATIOS = 4.0 ** np.arange(-1, 5)
 """S, the gain over the saturation."""
 SIDE = 17
 SOURCE, SINKS = (7, 3), ((4, 13), (12, 13))
+TRANSPORTS = {"facilitated": FacilitatedDiffusion, "polar": PolarTransport}
 BACKGROUNDS = {"facilitated": 0.0, "polar": 0.1}
 
 
 def transport_of(kind: str, gain: float, ratio: float) -> Transport | None:
     """Give transport of a gain and S; None where walls would be saturated at rest."""
     saturation = gain / ratio
-    if kind == "facilitated":
-        if saturation <= 1.0:
-            return None
-        return FacilitatedDiffusion(gain=gain, saturation=saturation)
     if saturation <= 1.0:
         return None
-    return PolarTransport(gain=gain, saturation=saturation)
+    return TRANSPORTS[kind](gain=gain, saturation=saturation)
 
 
 def phase(kind: str, gain: float, ratio: float) -> str | None:

@@ -25,6 +25,7 @@ from vasc.models.transport import (
     PooledTransport,
     Transport,
 )
+from vasc.render import TissueStyle
 from vasc.simulation import simulate
 from vasc.state import State
 from vasc.streams import Streams
@@ -35,8 +36,8 @@ MODELS: dict[str, tuple[Transport, float]] = {
     "pool, background 0.5": (PooledTransport(), 0.5),
 }
 """Transport and background production, by the name in pictures; defaults of vasc."""
-INK, GREEN, RED, ORANGE, BLUE = "#202020", "#1b9e3e", "#d3122e", "#e8590c", "#2b6cc4"
-GREY = "#c4c8cc"
+GREEN, RED, ORANGE = TissueStyle.sink, TissueStyle.source, TissueStyle.arrow
+INK, BLUE = "#202020", "#2b6cc4"
 
 
 def options(script: str, help_of_size: str, size: int) -> argparse.Namespace:
@@ -56,18 +57,6 @@ def tissue_in(ring: ArrayLike, seed: int = 1) -> Tissue:
     lowest = corners[corners[:, 1].argmin()]
     blade = Blade.from_rings([corners], lowest[None])
     return voronoi_in(blade, Streams(seed, ("tissue",))["tissue"])
-
-
-def margin_of(tissue: Tissue) -> NDArray[np.int32]:
-    """Give the cells of the margin of a round tissue, those with a corner on it, around it."""
-    import shapely
-
-    line = tissue.blade.polygon.boundary
-    is_on = shapely.distance(shapely.points(tissue.corners), line) < 1e-6
-    owners = np.repeat(np.arange(tissue.n_cells), np.diff(tissue.starts))
-    cells = np.unique(owners[is_on]).astype(np.int32)
-    x, y = (tissue.positions[cells] - tissue.positions[cells].mean(axis=0)).T
-    return cells[np.argsort(np.arctan2(y, x))]
 
 
 def settle(

@@ -9,6 +9,7 @@ from matplotlib.patches import Rectangle
 from panels import grown, letter, output_of
 
 from vasc.render import TissueStyle, View, draw_tissue, save, scale_of
+from vasc.render.tissue_files import CONCENTRATIONS
 from vasc.state import State
 
 WIDTH, HEIGHT = 7.0, 7.35
@@ -20,7 +21,6 @@ TRANSPORTS = {
     "pool": "polar transport, a pool of carriers a cell",
     "facilitated": "facilitated diffusion",
 }
-UNITS = {"pool": "K/T", "facilitated": "Kγ/β"}
 CORNER = {"pool": (12.0, 14.0), "facilitated": (6.0, 5.0)}
 """Middle of the cells that explain the symbols."""
 WORDS = {
@@ -107,7 +107,7 @@ def main(output: Path) -> None:
                 state,
                 ax,
                 scale=scale,
-                unit=UNITS[transport],
+                unit=CONCENTRATIONS[transport],
                 scale_bar=False,
                 title=False,
                 key=is_last,

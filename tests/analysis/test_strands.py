@@ -5,8 +5,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from vasc.analysis.strand_shapes import landings
-from vasc.analysis.strands import THRESHOLDS, read_strand
+from vasc.analysis.strand_shapes import THRESHOLDS, landings
+from vasc.analysis.strands import read_strand
 from vasc.domain.tilings import rectangular
 from vasc.domain.tissue import Tissue
 from vasc.fields import Fields, Role
@@ -56,7 +56,7 @@ def test_a_single_file_is_one_cell_wide(tissue):
     # the other vein is nearer: 7 cells aside and 2 below
     assert strand.excess == pytest.approx(12.0 / np.hypot(7, 2))
     assert not strand.is_nearest(strand.reached)
-    assert not strand.is_nearest(strand.reached, by_cells=False)
+    assert not strand.is_nearest(strand.reached, by_cells=True)
     assert strand.ways.tolist() == [12.0, 9.0]
     assert (strand.is_loop, strand.is_vortex, strand.n_landings) == (False, False, 1)
 

@@ -42,7 +42,7 @@ def test_a_dart_a_round_keeps_a_distance_that_shrinks():
     cells = model.tissue.nearest_cells(run[-1].rows("sources", "material"))
     for row, (cell, birth) in enumerate(zip(cells, births, strict=True)):
         veins = np.flatnonzero(before[birth].fields.roles == Role.VEIN)
-        far = model.tissue.vein_distances(np.isin(np.arange(model.tissue.n_cells), veins))
+        far = model.tissue.distances_from(np.isin(np.arange(model.tissue.n_cells), veins))
         assert far[cell] >= min(6.0 - 4.5 * row / 5, far.max())
 
 
@@ -55,7 +55,7 @@ def test_darts_fall_evenly_where_there_is_room():
         injection.begin(cells)
         injection.place(cells, 1, streams)
         hits[cells.source_cells] += 1
-    has_room = model.tissue.vein_distances(cells.is_vein) >= 6.0
+    has_room = model.tissue.distances_from(cells.is_vein) >= 6.0
     assert hits[~has_room].sum() == 0
     expected = 2000 / has_room.sum()
     # chi squared is within five standard deviations of its mean

@@ -33,7 +33,6 @@ def rates_of(**values):
 def torus(side):
     """Hexagons without a border: an even number of rows that shift to and fro."""
     tissue = hexagonal(side, side)
-    x, y = np.arange(side * side) % side, np.arange(side * side) // side
     inner = int(np.argmin(np.abs(tissue.positions - tissue.positions.mean(axis=0)).sum(axis=1)))
     near = np.flatnonzero(
         np.isclose(np.hypot(*(tissue.positions - tissue.positions[inner]).T), 1.0)
@@ -48,7 +47,6 @@ def torus(side):
             pairs.add((min(cell, other), max(cell, other)))
     walls = np.array(sorted(pairs), dtype=np.int32)
     assert len(walls) == 3 * side * side
-    assert (x.max(), y.max()) == (side - 1, side - 1)
     return replace(
         tissue,
         volumes=np.full(side * side, 3.0**0.5 / 2.0),
@@ -69,7 +67,12 @@ def model_on(tissue, rates, start, time_step=0.05, recorded=400, rest=1e-4):
         }
     )
     return UpTheGradient(
-        tissue, HEXAGON, parameters.auxin, parameters.start, parameters.times, last_step=400
+        tissue=tissue,
+        last_step=400,
+        width=HEXAGON,
+        auxin=parameters.auxin,
+        start=parameters.start,
+        times=parameters.times,
     )
 
 

@@ -1,31 +1,33 @@
-"""Shapes of strands: their width, their length, and the places where they end."""
+"""Shapes of strands: what counts as one, its width and length, and the places where it ends."""
 
-from typing import Protocol
+from dataclasses import dataclass
 
 import numpy as np
 
 from vasc.arrays import Floats, Ids
 from vasc.domain import Tissue
+from vasc.fields import VORTEX
 
 
-class ShapeThresholds(Protocol):
-    """The thresholds that shapes depend on."""
+@dataclass(frozen=True)
+class StrandThresholds:
+    """What counts as a strand; all of them are told with every result."""
 
-    @property
-    def landing_inflow(self) -> float:
-        """Least inflow of a vein cell where a strand may end."""
+    least_share: float = 0.1
+    """Share of all auxin that a group of vein cells must get from a strand."""
+    landing_inflow: float = 0.02
+    """A vein cell where a strand may end gets more than that, in units of what a source makes."""
+    landing_gap: float = 1.6
+    """Such cells are one end of a strand if they are not farther apart, in D."""
+    landing_total: float = 0.08
+    """An end of a strand gets at least that, in units of what a source makes."""
+    middle: tuple[float, float] = (0.25, 0.75)
+    """Part of the way from source to vein in which a strand is measured."""
+    vortex: float = VORTEX
+    """A cell that passes more than that, over all that is made, is part of a vortex."""
 
-    @property
-    def landing_gap(self) -> float:
-        """Largest distance between two cells of one end."""
 
-    @property
-    def landing_total(self) -> float:
-        """Least inflow of an end."""
-
-    @property
-    def middle(self) -> tuple[float, float]:
-        """Part of the way in which a strand is measured."""
+THRESHOLDS = StrandThresholds()
 
 
 def cell_steps(tissue: Tissue, start: int) -> Ids:
@@ -55,7 +57,7 @@ def participation(flux: Floats) -> float:
 
 
 def strand_width(
-    tissue: Tissue, flux: Floats, steps: Ids, n_steps: int, thresholds: ShapeThresholds
+    tissue: Tissue, flux: Floats, steps: Ids, n_steps: int, thresholds: StrandThresholds
 ) -> float:
     """Give the number of walls that share the flux, in the middle of a way.
 
@@ -69,7 +71,7 @@ def strand_width(
         Walls between the source and each cell.
     n_steps : int
         Walls between the source and the end of its way.
-    thresholds : ShapeThresholds
+    thresholds : StrandThresholds
         Which part of the way is the middle.
 
     Returns
@@ -88,7 +90,7 @@ def strand_width(
     return float(np.median(ratios)) if ratios else np.nan
 
 
-def landings(tissue: Tissue, inflow: Floats, thresholds: ShapeThresholds) -> tuple[int, ...]:
+def landings(tissue: Tissue, inflow: Floats, thresholds: StrandThresholds) -> tuple[int, ...]:
     """Give the places where strands end on veins, as the cell of each that gets most.
 
     Parameters
@@ -97,7 +99,7 @@ def landings(tissue: Tissue, inflow: Floats, thresholds: ShapeThresholds) -> tup
         The cells.
     inflow : ndarray of shape (n,), float64
         What arrives in each vein cell, 0 in all others.
-    thresholds : ShapeThresholds
+    thresholds : StrandThresholds
         How much a cell and an end get at least, and how far apart two ends are.
     """
     from scipy.sparse.csgraph import connected_components

@@ -1,4 +1,4 @@
-"""Strands: where the auxin of a source goes, told by thresholds that no model knows.
+"""Strands: where the auxin of a source goes, told by thresholds that are the same for all models.
 
 A strand is read from the fluxes and carriers of one step. Nothing here asks how they came
 about, so that a diffuse pattern is read as readily as a canal, and told apart from it.
@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 from vasc import kernels
 from vasc.analysis.strand_shapes import (
+    THRESHOLDS,
+    StrandThresholds,
     cell_steps,
     landings,
     path_length,
@@ -20,27 +22,6 @@ from vasc.analysis.strand_shapes import (
 from vasc.arrays import NULL, Floats, Ids
 from vasc.domain import Tissue
 from vasc.fields import Fields, Role
-
-
-@dataclass(frozen=True)
-class StrandThresholds:
-    """What counts as a strand; all of them are told with every result."""
-
-    least_share: float = 0.1
-    """Share of all auxin that a group of vein cells must get from a strand."""
-    landing_inflow: float = 0.02
-    """A vein cell where a strand may end gets more than that, in units of what a source makes."""
-    landing_gap: float = 1.6
-    """Such cells are one end of a strand if they are not farther apart, in D."""
-    landing_total: float = 0.08
-    """An end of a strand gets at least that, in units of what a source makes."""
-    middle: tuple[float, float] = (0.25, 0.75)
-    """Part of the way from source to vein in which a strand is measured."""
-    vortex: float = 1.1
-    """A cell that passes more than that, over all that is made, is part of a vortex."""
-
-
-THRESHOLDS = StrandThresholds()
 
 
 @dataclass(frozen=True)
@@ -152,8 +133,8 @@ def read_strand(
     groups : sequence of ndarray of int32
         The cells of every vein, no cell in two of them.
     activation : float
-        Carriers at which a wall counts as part of a canal: the geometric mean of those of
-        a resting and of a saturated wall.
+        Carriers from which on a wall counts as part of a canal: the geometric mean of what
+        walls have at rest, on average, and of the most they can have.
     thresholds : StrandThresholds, optional
         What counts as a strand.
 
@@ -245,14 +226,10 @@ def _fed_by_canal(
     Veins end a canal: two canals that meet a vein in one cell are two. The walls between
     the last cell of a canal and one vein count together, as the vein may lie around it.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     n, walls, carriers = tissue.n_cells, tissue.walls, fields.carriers.max(axis=1)
     is_vein = fields.roles == Role.VEIN
     inner = walls[(carriers >= activation) & ~is_vein[walls].any(axis=1)]
-    links = coo_array((np.ones(len(inner), np.int8), (inner[:, 0], inner[:, 1])), shape=(n, n))
-    labels = connected_components(links, directed=False)[1]
+    labels = kernels.components.component_labels(inner, n)
     is_canal = (labels == labels[source_cell]) & ~is_vein
 
     fed = np.zeros(n, dtype=bool)

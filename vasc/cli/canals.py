@@ -55,7 +55,7 @@ def _print_answers(suite: dict) -> None:
             f" (d/d2 = {row['q']:.2f})"
         )
     typer.echo(
-        "open rule: the nearest vein; closed rule: the veins of all relative neighbours,"
+        "open rule: the nearest vein; closed rule: the veins of all relative neighbors,"
         " which may be\nseveral; d/d2: distance of the nearest vein over that of the second;"
         " in brackets: 95 % (Wilson)"
     )

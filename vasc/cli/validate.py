@@ -37,7 +37,10 @@ def validate(
     n: Annotated[
         int | None,
         typer.Option(
-            "--n", min=5, max=10_000, help="Scenarios a rate of canalization: 20, or 200 for all."
+            "--n",
+            min=5,
+            max=10_000,
+            help="Scenarios a rate of canalization: 20 by default; from 200 on of all protocols.",
         ),
     ] = None,
     force: Force = False,

@@ -3,14 +3,15 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from vasc.domain.sides import FREE, Rings, areas_of, sides_of, walls_of
+from vasc import kernels
+from vasc.domain.sides import FREE, CellRings, areas_of, sides_of, walls_of
 from vasc.errors import OutlineError
 
 SMALLEST_PART = 0.05
 """A part with a smaller share of all cells is taken off, as tips of an outline leave some."""
 
 
-def sound_cells(rings: Rings) -> Rings:
+def sound_cells(rings: CellRings) -> CellRings:
     """Give the cells of one tissue: those that hang together by walls.
 
     Cells that meet others at the margin by a corner alone are taken off, and so are parts
@@ -41,7 +42,7 @@ def sound_cells(rings: Rings) -> Rings:
     return rings
 
 
-def pinched_cells(rings: Rings) -> NDArray[np.int64]:
+def pinched_cells(rings: CellRings) -> NDArray[np.int64]:
     """Give the cells to take off where the outline touches itself at a corner.
 
     At every such corner it is the cell with most free sides, the lower id of two.
@@ -59,18 +60,13 @@ def pinched_cells(rings: Rings) -> NDArray[np.int64]:
     return np.unique(sides.cells[at][order][leading])
 
 
-def parts_of(rings: Rings) -> NDArray[np.int64]:
+def parts_of(rings: CellRings) -> NDArray[np.int64]:
     """Give the part that each cell is of, shape (n,)."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    walls, lengths = walls_of(rings, sides_of(rings))
-    graph = coo_array((lengths, tuple(walls.T)), shape=(rings.n_cells, rings.n_cells))
-    _, parts = connected_components(graph, directed=False)
-    return np.asarray(parts, dtype=np.int64)
+    walls, _ = walls_of(rings, sides_of(rings))
+    return kernels.components.component_labels(walls, rings.n_cells).astype(np.int64)
 
 
-def _apart(rings: Rings, parts: NDArray[np.int64], counts: NDArray[np.int64]) -> str:
+def _apart(rings: CellRings, parts: NDArray[np.int64], counts: NDArray[np.int64]) -> str:
     """Describe the second largest part of cells."""
     second = int(np.argsort(-counts, kind="stable")[1])
     _, centres = areas_of(rings.only(parts == second))

@@ -12,7 +12,7 @@ FREE = -1
 """The partner of a side that no other cell shares."""
 
 
-class Rings(NamedTuple):
+class CellRings(NamedTuple):
     """Cells by the corners they share.
 
     Parameters
@@ -41,11 +41,11 @@ class Rings(NamedTuple):
         after[self.starts[1:] - 1] = self.starts[:-1]
         return after
 
-    def only(self, is_kept: NDArray[np.bool_]) -> "Rings":
+    def only(self, is_kept: NDArray[np.bool_]) -> "CellRings":
         """Give some of the cells."""
         counts = np.diff(self.starts)
         rows = self.rows[np.repeat(is_kept, counts)]
-        return Rings(self.corners, rows, np.cumsum([0, *counts[is_kept].tolist()]))
+        return CellRings(self.corners, rows, np.cumsum([0, *counts[is_kept].tolist()]))
 
 
 class Sides(NamedTuple):
@@ -67,14 +67,14 @@ class Sides(NamedTuple):
     partners: NDArray[np.int64]
 
 
-def rings_of(corners: Points, cells: list[list[int]]) -> Rings:
+def rings_of(corners: Points, cells: list[list[int]]) -> CellRings:
     """Lay the corners of cells one after the other."""
     starts = np.cumsum([0, *map(len, cells)])
     rows = np.fromiter(chain.from_iterable(cells), dtype=np.int64, count=int(starts[-1]))
-    return Rings(corners, rows, starts)
+    return CellRings(corners, rows, starts)
 
 
-def sides_of(rings: Rings) -> Sides:
+def sides_of(rings: CellRings) -> Sides:
     """Find the sides of cells, and which of them two cells share.
 
     Raises
@@ -95,7 +95,7 @@ def sides_of(rings: Rings) -> Sides:
     return Sides(cells, first, second, partners)
 
 
-def walls_of(rings: Rings, sides: Sides) -> tuple[Ids, Floats]:
+def walls_of(rings: CellRings, sides: Sides) -> tuple[Ids, Floats]:
     """Give the walls between cells, lower id first and in order, and their lengths.
 
     Two cells have one wall, which may consist of several sides.
@@ -139,7 +139,7 @@ def outline_sides(sides: Sides) -> list[list[int]]:
     return found
 
 
-def areas_of(rings: Rings) -> tuple[Floats, Points]:
+def areas_of(rings: CellRings) -> tuple[Floats, Points]:
     """Give areas, positive when corners run counterclockwise, and centroids of cells."""
     begins = rings.starts[:-1]
     # from the first corner of each cell, so that cells far from the origin keep their digits

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vasc.arrays import Points
 from vasc.domain.blade import Blade
 from vasc.domain.parts import sound_cells
-from vasc.domain.sides import Rings, areas_of, outline_sides, rings_of, sides_of, walls_of
+from vasc.domain.sides import CellRings, areas_of, outline_sides, rings_of, sides_of, walls_of
 from vasc.domain.tissue import Tissue
 
 SQUARE = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
@@ -51,7 +51,7 @@ def tissue_of(
     return tissue_of_rings(rings_of(corners, [list(ring) for ring in cells]), blade)
 
 
-def tissue_of_rings(rings: Rings, blade: Blade | None = None) -> Tissue:
+def tissue_of_rings(rings: CellRings, blade: Blade | None = None) -> Tissue:
     """Make a tissue of cells; see :func:`tissue_of`."""
     sides = sides_of(rings)
     walls, lengths = walls_of(rings, sides)
@@ -127,16 +127,16 @@ def _around(blade: Blade, width: float, height: float) -> tuple[range, range]:
     return columns, range(int(np.floor(low_y / height)), int(np.ceil(high_y / height)) + 1)
 
 
-def _tiles(centres: Lattice, around: Lattice, unit: tuple[float, float]) -> Rings:
+def _tiles(centres: Lattice, around: Lattice, unit: tuple[float, float]) -> CellRings:
     """Give equal cells around lattice points; corners are exactly those of neighbors."""
     if len(centres) == 0:
-        return Rings(np.zeros((0, 2)), np.zeros(0, dtype=np.int64), np.zeros(1, dtype=np.int64))
+        return CellRings(np.zeros((0, 2)), np.zeros(0, dtype=np.int64), np.zeros(1, dtype=np.int64))
     places = (centres[:, None] + around).reshape(-1, 2)
     low = places.min(axis=0)
     height = int(np.ptp(places[:, 1])) + 1
     keys, rows = np.unique((places - low) @ np.array([height, 1]), return_inverse=True)
     corners = (np.stack(np.divmod(keys, height), axis=1) + low) * np.array(unit)
-    return Rings(corners, rows, np.arange(len(centres) + 1) * len(around))
+    return CellRings(corners, rows, np.arange(len(centres) + 1) * len(around))
 
 
 def _masked(centres: Lattice, around: Lattice, unit: tuple[float, float], blade: Blade) -> Tissue:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vasc.arrays import Floats, Ids, Points, as_points
 from vasc.domain.blade import Blade
-from vasc.domain.sides import FREE, Rings, Sides, outline_sides, sides_of
+from vasc.domain.sides import FREE, CellRings, Sides, outline_sides, sides_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +79,7 @@ class Tissue:
         exact = np.ascontiguousarray(self.corners + 0.0).view(np.complex128).ravel()
         shared, rows = np.unique(exact, return_inverse=True)
         places = np.stack([shared.real, shared.imag], axis=1)
-        return sides_of(Rings(places, rows, self.starts.astype(np.int64)))
+        return sides_of(CellRings(places, rows, self.starts.astype(np.int64)))
 
     @cached_property
     def is_margin(self) -> NDArray[np.bool_]:
@@ -113,11 +113,17 @@ class Tissue:
         near, _ = cKDTree(self.positions).query(xy)
         return ~self.blade.contains(xy) & (near > 1.0)
 
-    def vein_distances(self, is_vein: NDArray[np.bool_]) -> Floats:
-        """Give the distance of each cell to the nearest that is vein, shape (n,); some is."""
+    def distances_from(self, cells: Ids | NDArray[np.bool_]) -> Floats:
+        """Give the straight distance of each cell from the nearest of some, shape (n,).
+
+        Parameters
+        ----------
+        cells : ndarray of int32, or of shape (n,), bool
+            Their ids, or which ones they are; at least one.
+        """
         from scipy.spatial import cKDTree
 
-        distances, _ = cKDTree(self.positions[is_vein]).query(self.positions)
+        distances, _ = cKDTree(self.positions[cells]).query(self.positions)
         return np.asarray(distances, dtype=np.float64)
 
     def nearest_cells(self, points: ArrayLike) -> Ids:

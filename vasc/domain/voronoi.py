@@ -5,10 +5,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vasc import kernels
 from vasc.arrays import Points
 from vasc.domain.blade import Blade
 from vasc.domain.parts import sound_cells
-from vasc.domain.sides import Rings, areas_of
+from vasc.domain.sides import CellRings, areas_of
 from vasc.domain.tilings import tissue_of_rings
 from vasc.domain.tissue import Tissue
 from vasc.errors import OutlineError
@@ -135,18 +136,15 @@ def _moved(points: Points, cut: tuple[NDArray[Any], NDArray[np.int64]], blade: B
     return np.where((blade.contains(means) & (weights > 0.0))[:, None], means, points)
 
 
-def _joined(pieces: NDArray[Any]) -> Rings:
+def _joined(pieces: NDArray[Any]) -> CellRings:
     """Give cells by the corners they share; corners that hardly differ are one."""
     import shapely
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
     oriented = shapely.orient_polygons(pieces)
     points, cells = shapely.get_coordinates(shapely.get_exterior_ring(oriented), return_index=True)
     pairs = cKDTree(points).query_pairs(SHORTEST_WALL, output_type="ndarray")
-    graph = coo_array((np.ones(len(pairs)), tuple(pairs.T)), shape=(len(points), len(points)))
-    _, groups = connected_components(graph, directed=False)
+    groups = kernels.components.component_labels(pairs, len(points))
     _, leading = np.unique(groups, return_index=True)
     # the first corner of a ring is its last, too: what repeats the one before goes
     is_new = np.ones(len(points), dtype=np.bool_)
@@ -155,7 +153,7 @@ def _joined(pieces: NDArray[Any]) -> Rings:
     is_new[is_last] = False
     rows, owners = groups[is_new], cells[is_new]
     counts = np.bincount(owners, minlength=len(pieces))
-    rings = Rings(points[leading], rows.astype(np.int64), np.cumsum([0, *counts.tolist()]))
+    rings = CellRings(points[leading], rows.astype(np.int64), np.cumsum([0, *counts.tolist()]))
     rings = rings.only(counts > 2)
     areas, _ = areas_of(rings)
     return rings.only(areas > SHORTEST_WALL**2)

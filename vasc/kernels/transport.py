@@ -37,6 +37,11 @@ def balance(walls: Ids, is_sink: NDArray[np.bool_]) -> Balance:
         The two cells of each wall.
     is_sink : ndarray of shape (n,), bool
         Cells that keep the concentration 0.
+
+    Returns
+    -------
+    Balance
+        An empty system where all cells are sinks.
     """
     from scipy.sparse import coo_array
 
@@ -128,6 +133,24 @@ def through(walls: Ids, flux: Floats, n_cells: int) -> Floats:
     leaves = np.where(flux > 0.0, walls[:, 0], walls[:, 1])
     sums = np.bincount(leaves, weights=np.abs(flux), minlength=n_cells)
     return np.asarray(sums, dtype=np.float64)
+
+
+def cell_sums(walls: Ids, of_sides: NDArray[np.float64], n_cells: int) -> Floats:
+    """Add up over the walls of each cell what belongs to its side of them, shape (n,).
+
+    Parameters
+    ----------
+    walls : ndarray of shape (w, 2), int32
+        The two cells of each wall.
+    of_sides : ndarray of shape (w, 2), float64
+        What belongs to the first cell of each wall, and to the second.
+    n_cells : int
+        Number of cells.
+    """
+    sums = np.zeros(n_cells)
+    for side in (0, 1):
+        sums += np.bincount(walls[:, side], weights=of_sides[:, side], minlength=n_cells)
+    return sums
 
 
 def _diagonal(system: Balance) -> Any:

@@ -30,17 +30,17 @@ class Rates(NamedTuple):
     """What auxin and carriers do, in one unit of length and one of time."""
 
     production: float
-    """rho"""
+    """Production rho, amount by area and time."""
     decay: float
-    """mu"""
+    """Decay mu, share by time."""
     diffusion: float
-    """D"""
+    """Passive permeation D, length by time."""
     transport: float
-    """T"""
+    """Efflux by carriers T, for one carrier by length of wall."""
     carriers: float
-    """P_i"""
+    """Carriers of a cell P_i."""
     base: float
-    """b"""
+    """Base b: how many times the carriers a wall gets for one unit of auxin more behind it."""
 
 
 def exits(walls: Ids, n_cells: int) -> Exits:
@@ -52,6 +52,11 @@ def exits(walls: Ids, n_cells: int) -> Exits:
         The two cells of each wall.
     n_cells : int
         Number of cells.
+
+    Returns
+    -------
+    Exits
+        Two a wall; none where there is no wall.
     """
     cells = walls.T.ravel()
     ids = np.tile(np.arange(len(walls)), 2)

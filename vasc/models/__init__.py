@@ -1,4 +1,4 @@
-"""Models of vascular development: each a choice of parts for one sentence."""
+"""Models of vascular development: each a choice of parts for a sentence."""
 
 from vasc.models.areole import AreoleVenation
 from vasc.models.base import Model

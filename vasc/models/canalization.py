@@ -12,24 +12,22 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from vasc import kernels
-from vasc.arrays import NULL, Floats
-from vasc.domain import Tissue
+from vasc.arrays import NULL, Codes, Floats
 from vasc.errors import RunError
-from vasc.events import EventKind, StopReason
-from vasc.fields import Fields, Role
-from vasc.models.base import Model, newest
+from vasc.events import EventKind
+from vasc.fields import VORTEX, Fields
+from vasc.models.base import newest
 from vasc.models.canal_cells import CanalCells
 from vasc.models.cell_sources import AnyCellSources
 from vasc.models.injection import Injection
 from vasc.models.on_tissue import TissueExperiment, VeinParameters
 from vasc.models.settling import Settling
+from vasc.models.tissue_model import TissueModel
 from vasc.models.transport import AnyTransport, Transport
 from vasc.parameters import quantity
-from vasc.state import State, Tables, affine
+from vasc.state import State, Tables
 from vasc.streams import Streams
 
-VORTEX = 1.1
-"""A cell that passes more than that, over all that is made, is part of a vortex."""
 DIVERGED = 1e3
 """Nothing that settles passes more than that through one cell, over all that is made."""
 
@@ -45,31 +43,33 @@ class Progress(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Canalization(Model):
+class Canalization(TissueModel):
     """Cells whose walls adapt to the flux of auxin from sources to veins.
 
     Parameters
     ----------
-    tissue : Tissue
-        The cells.
+    tissue, last_step
+        As for :class:`~vasc.models.tissue_model.TissueModel`.
     transport : Transport
         What walls pass, and what the flux makes of them.
     injection : Injection
         Which cells are veins at first, and when sources appear in which.
     settling : Settling
         How far walls change in a step, and when they are at rest.
-    last_step : int or None
-        The run ends after this step at the latest.
     """
 
-    tissue: Tissue
     transport: Transport
     injection: Injection
     settling: Settling
-    last_step: int | None
 
     def advance(self, state: State, streams: Streams) -> State:
-        """Advance one step: inject, transport, adapt."""
+        """Advance one step: inject, transport, adapt; canals at rest differentiate.
+
+        Raises
+        ------
+        RunError
+            If the flux grows without bound, or the concentrations cannot be solved for.
+        """
         cells, began, may_inject = newest(state, Progress)
         fields, step = state.fields, state.step + 1
         assert fields is not None, "a state of a tissue"
@@ -91,36 +91,26 @@ class Canalization(Model):
         carriers = target + (fields.carriers - target) * exp(-lapse)
         time = state.time + lapse
 
-        # differentiate: canals that have come to rest become veins
+        # differentiate: canals that have come to rest, or had their time to, become veins
+        is_at_rest = change < self.settling.rest
         longest = self.settling.longest(self.tissue, self.transport, roles)
-        is_settled = change < self.settling.rest or time - began >= longest
+        is_settled = is_at_rest or time - began >= longest
         if is_settled:
-            is_at_rest = change < self.settling.rest
             kind = EventKind.CANALS_SETTLED if is_at_rest else EventKind.CANALS_UNSETTLED
             cells.log(step, kind, NULL)
             self.differentiate(cells, step, flux, carriers)
 
         # record: the state is a view of what there is now
-        reason = self.reason_to_stop(cells, step, is_settled)
+        is_over = is_settled and self.injection.is_over(cells)
+        reason = self.reason_to_stop(step, is_over=is_over)
         fields = Fields(concentration, flux, carriers, roles)
-        return self.state(cells, step, time, began, is_settled, fields, reason)
+        progress = Progress(cells, began, is_settled)
+        return self.state_of(cells.tables, step, time, fields, progress, reason, cells.live)
 
-    def flow(self, roles: np.ndarray, made: Floats, carriers: Floats) -> tuple[Floats, Floats]:
-        """Give the concentrations of all cells, and the fluxes through all walls.
-
-        Raises
-        ------
-        RunError
-            If the concentrations cannot be solved for.
-        """
-        walls = self.tissue.walls
+    def flow(self, roles: Codes, made: Floats, carriers: Floats) -> tuple[Floats, Floats]:
+        """Give the concentrations of all cells, and the fluxes through all walls."""
         forth, back = self.transport.conductances(self.tissue, carriers)
-        try:
-            system = kernels.transport.balance(walls, roles == Role.VEIN)
-            concentration = kernels.transport.concentrations(system, forth, back, made)
-        except ArithmeticError as error:
-            raise RunError(f"the concentrations cannot be solved for: {error}") from error
-        return concentration, kernels.transport.fluxes(walls, concentration, forth, back)
+        return self.settled_flow(roles, forth, back, made)
 
     def look_for_vortices(self, cells: CanalCells, step: int, flux: Floats, made: Floats) -> None:
         """Note where more circulates than is made, once; refuse fluxes that grow without bound.
@@ -164,26 +154,18 @@ class Canalization(Model):
             if not is_loop and cells.is_vein[way[-1]] and is_canal.all():
                 cells.differentiate(step, source, way)
 
-    def reason_to_stop(self, cells: CanalCells, step: int, is_settled: bool) -> StopReason | None:
-        """Give the reason why a run ends after a step, or None when it goes on."""
-        if is_settled and self.injection.is_over(cells):
-            return StopReason.AT_REST
-        if self.last_step is not None and step >= self.last_step:
-            return StopReason.STEP_LIMIT
-        return None
-
     def initial_state(self, streams: Streams) -> State:
         """Give the state before the first step: veins, and walls without any flux."""
         cells = CanalCells(self.tissue, Tables())
         self.injection.begin(cells)
         roles = cells.roles
+        made = self.injection.production(self.tissue, roles)
         carriers = self.settling.disturbed(self.transport.resting(self.tissue), streams)
-        concentration, flux = self.flow(
-            roles, self.injection.production(self.tissue, roles), carriers
-        )
+        concentration, flux = self.flow(roles, made, carriers)
         fields = Fields(concentration, flux, carriers, roles)
         # where nothing is made, nothing has to settle before sources appear
-        return self.state(cells, 0, 0.0, 0.0, not flux.any(), fields, None)
+        progress = Progress(cells, 0.0, is_settled=not flux.any())
+        return self.state_of(cells.tables, 0, 0.0, fields, progress, live=cells.live)
 
     def restore(self, tables: Tables, step: int, streams: Streams) -> State:
         """Give the state that a record describes, ready to go on to the same bytes."""
@@ -193,39 +175,14 @@ class Canalization(Model):
         events = tables["events"]
         ends = np.isin(events.view("kind"), [EventKind.CANALS_SETTLED, EventKind.CANALS_UNSETTLED])
         rests = events.view("step")[ends]
-        is_settled = step in rests or (step == 0 and not fields.flux.any())
         earlier = rests[rests < step]
-        began = tables.past.time(int(earlier[-1])) if len(earlier) else 0.0
-        time = tables.past.time(step)
-        return self.state(cells, step, time, began, is_settled, fields, None)
-
-    def state(
-        self,
-        cells: CanalCells,
-        step: int,
-        time: float,
-        began: float,
-        is_settled: bool,
-        fields: Fields,
-        reason: StopReason | None,
-    ) -> State:
-        """Give the state that the tables and fields describe now."""
-        if reason is not None:
-            cells.log(step, EventKind.RUN_FINISHED, int(reason))
-        return State(
-            step=step,
-            time=time,
-            blade=self.tissue.blade,
-            motion=affine(1.0),
-            outline_motion=affine(1.0),
-            counts=cells.tables.counts(),
-            live=cells.live,
-            tables=cells.tables,
-            index=Progress(cells, began, is_settled),
-            is_finished=reason is not None,
-            tissue=self.tissue,
-            fields=fields,
+        progress = Progress(
+            cells,
+            began=tables.past.time(int(earlier[-1])) if len(earlier) else 0.0,
+            is_settled=step in rests or (step == 0 and not fields.flux.any()),
         )
+        time = tables.past.time(step)
+        return self.state_of(tables, step, time, fields, progress, live=cells.live)
 
 
 class CanalizationParameters(TissueExperiment):

@@ -19,17 +19,15 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from vasc import kernels
-from vasc.arrays import Floats, Ids
-from vasc.domain import Tissue
-from vasc.errors import RunError
-from vasc.events import EventKind, StopReason
+from vasc.arrays import Codes, Floats, Ids
+from vasc.events import StopReason
 from vasc.fields import Fields, Role
-from vasc.models.base import Model, newest
+from vasc.models.base import newest
 from vasc.models.canal_cells import CanalCells
 from vasc.models.on_tissue import TissueExperiment, VeinParameters
+from vasc.models.tissue_model import TissueModel
 from vasc.parameters import quantity
-from vasc.state import State, Tables, affine
+from vasc.state import State, Tables
 from vasc.streams import Streams
 
 TIE = 1e-9
@@ -37,28 +35,24 @@ TIE = 1e-9
 
 
 @dataclass(frozen=True)
-class ConstantProduction(Model):
+class ConstantProduction(TissueModel):
     """Ground that makes auxin, and becomes vein where its gradient is steep.
 
     Parameters
     ----------
-    tissue : Tissue
-        The cells.
+    tissue, last_step
+        As for :class:`~vasc.models.tissue_model.TissueModel`.
     veins : list of ndarray of int32
         Cells of the first veins, each along its line.
     threshold : float
         Difference of concentration that makes a ground cell vein.
     destruction : float
         First-order destruction k, in D_c / D^2.
-    last_step : int or None
-        The run ends after this step at the latest.
     """
 
-    tissue: Tissue
     veins: list[Ids]
     threshold: float
     destruction: float
-    last_step: int | None
 
     def advance(self, state: State, streams: Streams) -> State:
         """Advance one step: the cell at the steepest wall becomes vein, auxin settles anew."""
@@ -71,7 +65,7 @@ class ConstantProduction(Model):
             self.differentiate(cells, step, cell)
 
         # record: auxin as it settles around the veins there are now
-        return self.state(cells, step, self.reason_to_stop(step, len(chosen)))
+        return self.state(cells, step, self.reason_to_stop(step, is_over=len(chosen) == 0))
 
     def steepest(self, cells: CanalCells, concentration: Floats) -> Ids:
         """Give the ground cells whose difference from a vein is largest and above the threshold.
@@ -110,32 +104,16 @@ class ConstantProduction(Model):
         """Give the walls of a cell, ascending."""
         return np.flatnonzero((self.tissue.walls == cell).any(axis=1)).astype(np.int32)
 
-    def settled(self, roles: np.ndarray) -> tuple[Floats, Floats]:
-        """Give the concentrations that production, diffusion and veins lead to, and the fluxes.
-
-        Raises
-        ------
-        RunError
-            If no way leads from some cells to a vein, and nothing is destroyed.
-        """
+    def fields(self, roles: Codes) -> Fields:
+        """Give the auxin that production, diffusion and veins lead to, and its fluxes."""
         tissue = self.tissue
         passes = tissue.lengths / tissue.distances
         made = np.where(roles == Role.VEIN, 0.0, tissue.volumes)
         decay = self.destruction * tissue.volumes
-        try:
-            system = kernels.transport.balance(tissue.walls, roles == Role.VEIN)
-            found = kernels.transport.concentrations(system, passes, passes, made, decay)
-        except ArithmeticError as error:
-            raise RunError(f"the concentrations cannot be solved for: {error}") from error
-        return found, kernels.transport.fluxes(tissue.walls, found, passes, passes)
-
-    def reason_to_stop(self, step: int, n_changed: int) -> StopReason | None:
-        """Give the reason why a run ends after a step, or None when it goes on."""
-        if n_changed == 0:
-            return StopReason.AT_REST
-        if self.last_step is not None and step >= self.last_step:
-            return StopReason.STEP_LIMIT
-        return None
+        concentration, flux = self.settled_flow(roles, passes, passes, made, decay)
+        # walls do not change: their permeability is their length, both ways
+        carriers = np.stack([tissue.lengths, tissue.lengths], axis=1)
+        return Fields(concentration, flux, carriers, roles)
 
     def initial_state(self, streams: Streams) -> State:
         """Give the state before the first step: the first veins, and auxin around them."""
@@ -148,27 +126,9 @@ class ConstantProduction(Model):
         return self.state(CanalCells(self.tissue, tables), step, None)
 
     def state(self, cells: CanalCells, step: int, reason: StopReason | None) -> State:
-        """Give the state that the tables describe now."""
-        if reason is not None:
-            cells.log(step, EventKind.RUN_FINISHED, int(reason))
-        roles = cells.roles
-        concentration, flux = self.settled(roles)
-        # walls do not change: their permeability is their length, both ways
-        carriers = np.stack([self.tissue.lengths, self.tissue.lengths], axis=1)
-        return State(
-            step=step,
-            time=float(step),
-            blade=self.tissue.blade,
-            motion=affine(1.0),
-            outline_motion=affine(1.0),
-            counts=cells.tables.counts(),
-            live=cells.live,
-            tables=cells.tables,
-            index=cells,
-            is_finished=reason is not None,
-            tissue=self.tissue,
-            fields=Fields(concentration, flux, carriers, roles),
-        )
+        """Give the state that the tables describe now; its auxin has settled around the veins."""
+        fields = self.fields(cells.roles)
+        return self.state_of(cells.tables, step, float(step), fields, cells, reason, cells.live)
 
 
 class ConstantProductionParameters(TissueExperiment):

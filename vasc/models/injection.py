@@ -100,7 +100,7 @@ class DartInjection(Injection):
         free = self._ground(cells)
         if self.is_over(cells):
             return
-        distances = cells.tissue.vein_distances(cells.is_vein)[free]
+        distances = cells.tissue.distances_from(cells.is_vein)[free]
         least = min(self.distance(cells.tables["sources"].n_rows), float(distances.max()))
         roomy = free[distances >= least]
         # darts that find no room leave no trace: one draw among those that do is the same

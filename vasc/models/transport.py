@@ -12,6 +12,7 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
+from vasc import kernels
 from vasc.arrays import Floats
 from vasc.domain import Tissue
 from vasc.parameters import Parameters, quantity
@@ -203,13 +204,8 @@ class PooledTransport(PolarWalls):
     def targets(self, tissue: Tissue, flux: Floats) -> Floats:
         """Give the carriers that a lasting flux would lead to, shape (w, 2)."""
         weights = self.baseline + self.gain * one_way(flux) ** 2
-        asked = np.zeros(tissue.n_cells)
-        for side in (0, 1):
-            asked += np.bincount(
-                tissue.walls[:, side],
-                weights=tissue.lengths * weights[:, side],
-                minlength=tissue.n_cells,
-            )
+        of_sides = tissue.lengths[:, None] * weights
+        asked = kernels.transport.cell_sums(tissue.walls, of_sides, tissue.n_cells)
         return self.pool * weights / (1.0 + asked[tissue.walls])
 
 

@@ -15,15 +15,15 @@ from typing import ClassVar, Literal, NamedTuple
 import numpy as np
 
 from vasc import kernels
-from vasc.arrays import NULL, Floats
-from vasc.domain import Tissue
+from vasc.arrays import Floats
 from vasc.errors import RunError
-from vasc.events import EventKind, StopReason
+from vasc.events import StopReason
 from vasc.fields import Fields, Role
-from vasc.models.base import Model, newest
+from vasc.models.base import newest
 from vasc.models.on_tissue import TissueExperiment
+from vasc.models.tissue_model import TissueModel
 from vasc.parameters import Parameters, quantity
-from vasc.state import State, Tables, affine
+from vasc.state import State, Tables
 from vasc.streams import Streams
 
 HEXAGON = 10.0 * 3.0**0.5
@@ -40,13 +40,13 @@ class Spread(NamedTuple):
 class AuxinRates(Parameters):
     """What cells do with auxin (Abley et al., 2016, Table 3); amounts in arbitrary units, Au."""
 
-    production: float = quantity("rho", unit="Au/um2/s", default=3e-4, gt=0.0)
-    decay: float = quantity("mu", unit="1/s", default=5e-3, gt=0.0)
-    diffusion: float = quantity("D, passive permeation.", unit="um/s", default=10.0, ge=0.0)
-    transport: float = quantity("T, efflux by carriers.", unit="um2/Au/s", default=80.0, ge=0.0)
-    carriers: float = quantity("P_i, carriers of a cell.", unit="Au/um", default=0.1, gt=0.0)
+    production: float = quantity("Production, rho.", unit="Au/um2/s", default=3e-4, gt=0.0)
+    decay: float = quantity("Decay, mu.", unit="1/s", default=5e-3, gt=0.0)
+    diffusion: float = quantity("Passive permeation, D.", unit="um/s", default=10.0, ge=0.0)
+    transport: float = quantity("Efflux by carriers, T.", unit="um2/Au/s", default=80.0, ge=0.0)
+    carriers: float = quantity("Carriers of a cell, P_i.", unit="Au/um", default=0.1, gt=0.0)
     base: float = quantity(
-        "b: a wall gets b times the carriers for each Au/um2 more behind it; A is in Au/um2.",
+        "A wall gets b times the carriers for each Au/um2 more behind it; A is in Au/um2.",
         default=6.0,
         gt=1.0,
         le=1e12,
@@ -56,7 +56,7 @@ class AuxinRates(Parameters):
 class StartParameters(Parameters):
     """How auxin is spread at first."""
 
-    concentration: float = quantity("A(0)", unit="Au/um2", default=0.01, ge=0.0)
+    concentration: float = quantity("Auxin at first, A(0).", unit="Au/um2", default=0.01, ge=0.0)
     noise: float = quantity(
         "Half the range of a factor around 1, drawn a cell.", default=0.025, ge=0.0, lt=1.0
     )
@@ -77,13 +77,13 @@ class TimeParameters(Parameters):
 
 
 @dataclass(frozen=True)
-class UpTheGradient(Model):
+class UpTheGradient(TissueModel):
     """Auxin that cells pump toward the neighbors that have most of it.
 
     Parameters
     ----------
-    tissue : Tissue
-        The cells.
+    tissue, last_step
+        As for :class:`~vasc.models.tissue_model.TissueModel`.
     width : float
         One D in um.
     auxin : AuxinRates
@@ -92,16 +92,12 @@ class UpTheGradient(Model):
         How it is spread at first.
     times : TimeParameters
         Steps of time, and rest.
-    last_step : int or None
-        The run ends after this step at the latest.
     """
 
-    tissue: Tissue
     width: float
     auxin: AuxinRates
     start: StartParameters
     times: TimeParameters
-    last_step: int | None
 
     @cached_property
     def exits(self) -> "kernels.up_the_gradient.Exits":  # type: ignore[name-defined]
@@ -144,7 +140,8 @@ class UpTheGradient(Model):
             )
         lapse = times.time_step * times.recorded
         change = float(np.abs(now - before).max()) / (self.auxin.decay * lapse)
-        reason = self.reason_to_stop(step, change < times.rest * float(now.max()))
+        is_at_rest = change < times.rest * float(now.max())
+        reason = self.reason_to_stop(step, is_over=is_at_rest)
         return self.state(state.tables, step, self.fields(now), reason)
 
     def fields(self, auxin: Floats) -> Fields:
@@ -153,14 +150,6 @@ class UpTheGradient(Model):
         density = kernels.up_the_gradient.fluxes(self.tissue.walls, self.rates, auxin, carriers)
         roles = np.full(self.tissue.n_cells, Role.GROUND, dtype=np.int8)
         return Fields(auxin, density * (self.tissue.lengths * self.width), carriers, roles)
-
-    def reason_to_stop(self, step: int, is_at_rest: bool) -> StopReason | None:
-        """Give the reason why a run ends after a step, or None when it goes on."""
-        if is_at_rest:
-            return StopReason.AT_REST
-        if self.last_step is not None and step >= self.last_step:
-            return StopReason.STEP_LIMIT
-        return None
 
     def initial_state(self, streams: Streams) -> State:
         """Give the state before the first step: auxin spread evenly, but for noise."""
@@ -177,23 +166,8 @@ class UpTheGradient(Model):
 
     def state(self, tables: Tables, step: int, fields: Fields, reason: StopReason | None) -> State:
         """Give the state that the tables and fields describe now."""
-        if reason is not None:
-            kind = EventKind.RUN_FINISHED
-            tables["events"].append(step=step, kind=kind, subject=int(reason), object=NULL)
-        return State(
-            step=step,
-            time=step * (self.times.time_step * self.times.recorded),
-            blade=self.tissue.blade,
-            motion=affine(1.0),
-            outline_motion=affine(1.0),
-            counts=tables.counts(),
-            live=np.empty(0, dtype=np.int32),
-            tables=tables,
-            index=Spread(fields.concentration),
-            is_finished=reason is not None,
-            tissue=self.tissue,
-            fields=fields,
-        )
+        time = step * (self.times.time_step * self.times.recorded)
+        return self.state_of(tables, step, time, fields, Spread(fields.concentration), reason)
 
 
 class UpTheGradientParameters(TissueExperiment):

@@ -4,10 +4,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vasc.arrays import Floats, Ids, Points
+from vasc.domain.sides import FREE
 from vasc.domain.tissue import Tissue
 
-SAME = 1e-6
-"""Corners nearer to each other than this are one, in D."""
 Shapes = NDArray[np.float64]
 """Polygons of equally many corners, shape (k, c, 2)."""
 
@@ -26,30 +25,15 @@ def wall_ends(tissue: Tissue) -> Shapes:
         In the order of the first cell's corners, which are counterclockwise; a wall whose
         side is not found among the corners lies across the middle between the centres.
     """
-    n_corners = len(tissue.corners)
-    owners = np.repeat(np.arange(tissue.n_cells), np.diff(tissue.starts))
-    following = np.arange(1, n_corners + 1)
-    following[tissue.starts[1:] - 1] = tissue.starts[:-1]
-    _, names = np.unique(np.rint(tissue.corners / SAME), axis=0, return_inverse=True)
-    names = names.reshape(-1).astype(np.int64)
-    a, b = names, names[following]
-    order = np.argsort(np.minimum(a, b) * n_corners + np.maximum(a, b), kind="stable")
-    keys = (np.minimum(a, b) * n_corners + np.maximum(a, b))[order]
-    shared = np.flatnonzero(keys[:-1] == keys[1:])
-    # the side of the cell of the lower id: sorting is stable, and corners go cell by cell
-    sides, others = order[shared], order[shared + 1]
-    pairs = owners[sides] * tissue.n_cells + owners[others]
-    by_pair = np.argsort(pairs, kind="stable")
+    sides, ends = tissue.sides, _across(tissue)
+    shared = np.flatnonzero(sides.partners != FREE)
+    owners, others = sides.cells[shared], sides.cells[sides.partners[shared]]
     asked = tissue.walls[:, 0].astype(np.int64) * tissue.n_cells + tissue.walls[:, 1]
-    places = np.searchsorted(pairs[by_pair], asked)
-    places = np.minimum(places, max(len(pairs) - 1, 0))
-    ends = _across(tissue)
-    if len(pairs) == 0:
-        return ends
-    chosen = by_pair[places]
-    is_found = pairs[chosen] == asked
-    found = sides[chosen[is_found]]
-    ends[is_found] = np.stack([tissue.corners[found], tissue.corners[following[found]]], axis=1)
+    # of a wall of several sides the first is taken
+    _, found, rows = np.intersect1d(asked, owners * tissue.n_cells + others, return_indices=True)
+    chosen = shared[rows]
+    # the same side begins, seen from the other cell, where it ends here
+    ends[found] = np.stack([tissue.corners[chosen], tissue.corners[sides.partners[chosen]]], axis=1)
     return ends
 
 

@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 FINEST_LINE, WIDEST_LINE = 0.5, 1.6
-"""Widths of strands where cells are too fine for arrows, in pt."""
+"""Widths of lines of flux where cells are too fine for arrows, in pt."""
 HEAD = 2.6
-"""Half the length of an arrow head on such a strand, in pt."""
+"""Half the length of an arrow head on such a line, in pt."""
 
 
 def draw_carriers(

@@ -119,7 +119,7 @@ def draw_tissue(
         draw_arrows(ax, tissue, fields, scale, style)
     elif flows:
         draw_streams(ax, tissue, fields, scale, style, view.points_per_length)
-    _draw_strands(ax, moment, style, cell)
+    _draw_veins(ax, moment, style, cell)
     _draw_rings(ax, moment, style, cell)
     if scale_bar:
         draw_scale_bar(ax, view.box, LengthUnit.from_table(units), view.points_per_length)
@@ -189,7 +189,7 @@ def _shade(
     )
 
 
-def _draw_strands(ax: Axes, moment: Moment, style: TissueStyle, cell: float) -> None:
+def _draw_veins(ax: Axes, moment: Moment, style: TissueStyle, cell: float) -> None:
     """Draw veins as lines through the centres of their cells."""
     from matplotlib.collections import LineCollection
 

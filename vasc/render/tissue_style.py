@@ -4,8 +4,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from vasc import kernels
 from vasc.analysis.moment import Moment
 from vasc.arrays import Floats
 from vasc.domain.tissue import Tissue
@@ -26,11 +26,11 @@ class TissueStyle:
     Parameters
     ----------
     outline, arrow, bar, vein, sink, source, background : str
-        Colours of cell outlines, arrows, bars of carriers, strands, rings of vein cells and
+        Colours of cell outlines, arrows, bars of carriers, veins, rings of vein cells and
         of sources, and the paper.
     smallest_outlined, smallest_detailed : float
         Width of a cell from which on its outline is drawn, and from which on arrows and bars
-        are; where cells are finer, strands are lines as wide as their flux.
+        are; where cells are finer, flux is drawn as lines as wide as it is.
     least_flux : float
         Flux that is drawn at least, over the largest.
     least_carriers : float
@@ -40,7 +40,7 @@ class TissueStyle:
     widest_arrow, thickest_bar : float
         Width of the arrow of the largest flux, and thickness of the bar of most carriers.
     head_distance : float
-        Distance of arrow heads along strands in fine tissues, in pt.
+        Distance of arrow heads along such lines, in pt.
     """
 
     outline: str = "#b9bec4"
@@ -92,10 +92,10 @@ def shades_of(moment: Moment, color: str) -> Floats:
     """
     tissue, fields = tissue_of_moment(moment)
     if color == "flux":
-        return _sums(tissue, np.stack([np.maximum(fields.flux, 0), np.maximum(-fields.flux, 0)], 1))
+        return kernels.transport.through(tissue.walls, fields.flux, tissue.n_cells)
     if color == "carriers":
         if is_polar(fields):
-            return _sums(tissue, fields.carriers)
+            return kernels.transport.cell_sums(tissue.walls, fields.carriers, tissue.n_cells)
         most = np.zeros(tissue.n_cells)
         for side in (0, 1):
             np.maximum.at(most, tissue.walls[:, side], fields.carriers[:, side])
@@ -134,13 +134,3 @@ def tissue_of_moment(moment: Moment) -> tuple[Tissue, Fields]:
 def is_polar(fields: Fields) -> bool:
     """Tell whether walls have carriers for each direction; a permeability is the same in both."""
     return not np.array_equal(fields.carriers[:, 0], fields.carriers[:, 1])
-
-
-def _sums(tissue: Tissue, of_sides: NDArray[np.float64]) -> Floats:
-    """Add up over the walls of each cell what belongs to its side, shape (n,)."""
-    sums = np.zeros(tissue.n_cells)
-    for side in (0, 1):
-        sums += np.bincount(
-            tissue.walls[:, side], weights=of_sides[:, side], minlength=tissue.n_cells
-        )
-    return sums

@@ -25,7 +25,6 @@ CANAL_CITATIONS = {
 
 CLAIM = "Runions (2008), section 4.1.4: a canal forms between a source and the closest vein"
 FIGURE = "Runions (2008), Figure 4.9"
-OPEN_RULE = "Runions (2008), section 4.2: the open rule"
 CLOSED_RULE = "Runions (2008), section 4.3, equation 4.1: the closed rule"
 MEASURED = "ours, measured by another program"
 
@@ -68,10 +67,6 @@ HIT_RATES = tuple(
     for protocol, rate in zip(("facilitated", "pool, background", "pool"), rates, strict=False)
 )
 """Measured on about 570 cells with the default values of the models, n = 60."""
-
-CLEAR_HITS = (451, 451)
-"""Hits of facilitated diffusion, and scenarios, with the nearest vein nearer than 0.8 of the
-distance of the second. Of 1441 more there were 1436 hits, all misses in square cells."""
 
 WIDTH_DIFFUSE, WIDTH_FORMED = 25.0, 1.1
 """Measured on 25 x 25 cells, source 10 cells from the vein, saturation = gain: width at a gain

@@ -1,6 +1,6 @@
 """Experiment 3: where a canal in an areole ends, and where the closed rule says.
 
-Hypothesis H2: the closed rule, which lets a source attract all its relative neighbours,
+Hypothesis H2: the closed rule, which lets a source attract all its relative neighbors,
 predicts the set of places where the canals of one source end (Runions 2008, equation 4.1).
 """
 
@@ -12,11 +12,11 @@ import numpy as np
 from vasc.arrays import Floats, Ids, Points
 from vasc.domain import Blade, Tissue
 from vasc.domain.voronoi import voronoi_in
-from vasc.models.transport import FacilitatedDiffusion, PooledTransport
+from vasc.models.transport import FacilitatedDiffusion
 from vasc.streams import Streams
 from vasc.validation.canalization.geometric import closed_ends
-from vasc.validation.canalization.protocols import Protocol
-from vasc.validation.canalization.scenarios import apart, random_source
+from vasc.validation.canalization.protocols import PROTOCOLS, Protocol
+from vasc.validation.canalization.scenarios import random_source
 from vasc.validation.canalization.settled import settle
 
 AREAS = (500.0, 700.0)
@@ -26,7 +26,7 @@ CORNERS = (6, 10)
 SLENDERNESS = (0.6, 1.0)
 """Smallest and largest ratio of the axes of the ellipse that corners are drawn on."""
 MERGED = 2.0
-"""Relative neighbours nearer to each other are one end, in D."""
+"""Relative neighbors nearer to each other are one end, in D."""
 SAME_END = 3.0
 """An end is where the closed rule says if it is not farther from there, in D."""
 NEAR_ENOUGH = 1.15
@@ -41,7 +41,7 @@ AREOLE_PROTOCOLS = {
             Protocol(f"facilitated S={s}", FacilitatedDiffusion(gain=GAIN, saturation=GAIN / s))
             for s in (1, 4, 16)
         ),
-        Protocol("pool, background", PooledTransport(), 0.5),
+        PROTOCOLS["pool, background"],
     )
 }
 """Protocols by name; S is the gain over the saturation, which tells how wide a strand is."""
@@ -63,20 +63,9 @@ def areole(seed: int) -> Tissue:
     return voronoi_in(Blade.from_rings([ring], ring[:1]), streams["placement"])
 
 
-def margin_cells(tissue: Tissue) -> Ids:
-    """Give the cells at the margin: they have a side that is no wall."""
-    sides = np.zeros(tissue.n_cells)
-    for side in (0, 1):
-        sides += np.bincount(
-            tissue.walls[:, side], weights=tissue.lengths, minlength=tissue.n_cells
-        )
-    around = np.array([_perimeter(polygon) for polygon in tissue.polygons])
-    return np.flatnonzero(around - sides > 1e-6 * around).astype(np.int32)
-
-
 def central_cell(tissue: Tissue, ring: Ids) -> int:
     """Give the cell farthest from all cells of the margin."""
-    return int(apart(tissue, ring).argmax())
+    return int(tissue.distances_from(ring).argmax())
 
 
 def areole_ends(protocol: Protocol, seed: int, *, is_central: bool) -> dict[str, Any]:
@@ -90,7 +79,7 @@ def areole_ends(protocol: Protocol, seed: int, *, is_central: bool) -> dict[str,
         these; ``excess``: distance of the main end over the nearest; ``width``, ``formed``.
     """
     tissue = areole(seed)
-    ring = margin_cells(tissue)
+    ring = np.flatnonzero(tissue.is_margin).astype(np.int32)
     generator = Streams(seed, ("source",))["source"]
     source = central_cell(tissue, ring) if is_central else random_source(tissue, [ring], generator)
     strand = settle(tissue, protocol.transport, [ring], [source], protocol.background).strand
@@ -155,9 +144,3 @@ def _between(tissue: Tissue, cells: Ids, others: Ids) -> Floats:
     from scipy.spatial.distance import cdist
 
     return np.asarray(cdist(tissue.positions[cells], tissue.positions[others]))
-
-
-def _perimeter(polygon: Points) -> float:
-    """Give the length of a closed line."""
-    sides = polygon - np.roll(polygon, 1, axis=0)
-    return float(np.sqrt((sides**2).sum(axis=1)).sum())

@@ -1,7 +1,7 @@
 """What the rules of geometry predict, on the cells that canalization runs on.
 
 The open rule lets a source attract the nearest vein node, the closed rule its relative
-neighbours (Runions 2008, sections 4.2 and 4.3, equation 4.1); vein nodes are centres of
+neighbors (Runions 2008, sections 4.2 and 4.3, equation 4.1); vein nodes are centres of
 vein cells.
 """
 
@@ -13,12 +13,9 @@ from numpy.typing import NDArray
 from vasc.arrays import Floats, Ids, Points
 from vasc.domain import Tissue
 
-ROUNDING = 1e-9
-"""Distances that differ by a smaller share are equal."""
-
 
 def relative_neighbors(source: Points, nodes: Points) -> Ids:
-    """Give the rows of the nodes that are relative neighbours of a source, the nearest first.
+    """Give the rows of the nodes that are relative neighbors of a source, the nearest first.
 
     Node v is one if no other node u is nearer to the source (of two at one distance the
     one of lower id) and at once nearer to v than the source is (Runions 2008, equation

@@ -6,7 +6,7 @@ the closed rule predicts the set of veins that canals reach.
 """
 
 from collections.abc import Callable, Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from math import sqrt
 from typing import Any
 
@@ -16,7 +16,7 @@ from vasc.validation.canalization.geometric import closed_ends, groups_of, ratio
 from vasc.validation.canalization.protocols import PROTOCOLS, Protocol
 from vasc.validation.canalization.rates import wilson
 from vasc.validation.canalization.scenarios import Scenario, draw
-from vasc.validation.canalization.settled import settle
+from vasc.validation.canalization.settled import TOLERANCE, settle
 
 CLEAR = 0.8
 """Below that ratio of the distances of the nearest and the second vein, no near-tie."""
@@ -103,7 +103,11 @@ def outcome(scenario: Scenario, protocol: Protocol, seed: int, tolerance: float)
 
 
 def outcomes(
-    tissue: str, scenario: str, protocol: Protocol, seeds: Iterable[int], tolerance: float = 0.3
+    tissue: str,
+    scenario: str,
+    protocol: Protocol,
+    seeds: Iterable[int],
+    tolerance: float = TOLERANCE,
 ) -> list[Outcome]:
     """Let the canals of many drawn scenarios form."""
     return [outcome(draw(tissue, scenario, seed), protocol, seed, tolerance) for seed in seeds]
@@ -143,7 +147,7 @@ def summary(found: list[Outcome]) -> dict[str, Any]:
 def hit_rates(
     cases: Iterable[tuple[str, str, str]],
     seeds: range,
-    tolerance: float = 0.3,
+    tolerance: float = TOLERANCE,
     progress: Callable[[str], None] = lambda name: None,
 ) -> list[dict[str, Any]]:
     """Give a row of :func:`summary` for each tissue, scenario and protocol.
@@ -167,11 +171,6 @@ def hit_rates(
         exact = [one.is_hit for one in found if one.q < EXACT[tissue]]
         rows.append(names | summary(found) | _rate("hit_exact", exact))
     return rows
-
-
-def as_columns(found: list[Outcome]) -> list[dict[str, Any]]:
-    """Give outcomes as a plain table, for whoever wants each of them."""
-    return [asdict(one) for one in found]
 
 
 def _rate(name: str, flags: list[bool]) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vasc.arrays import Floats, Ids
+from vasc.arrays import Ids
 from vasc.domain import Tissue
 from vasc.domain.tilings import hexagonal, rectangular
 from vasc.domain.voronoi import voronoi
@@ -61,6 +61,11 @@ def draw(tissue_kind: str, scenario: str, seed: int) -> Scenario:
         A key of :data:`SCENARIOS`.
     seed : int
         Seed of the tissue and of all that is in it.
+
+    Raises
+    ------
+    ValueError
+        If the tissue is too small for its veins and its source.
     """
     generator = Streams(seed, ("scenario",))["scenario"]
     tissue = TISSUES[tissue_kind](COLUMNS, ROWS, seed)
@@ -78,7 +83,13 @@ def draw(tissue_kind: str, scenario: str, seed: int) -> Scenario:
 
 
 def random_line(tissue: Tissue, generator: np.random.Generator) -> Ids:
-    """Draw a straight vein that lies in the tissue, as cells along it."""
+    """Draw a straight vein that lies in the tissue, as cells along it.
+
+    Raises
+    ------
+    ValueError
+        If none is found.
+    """
     low, high = tissue.positions.min(axis=0), tissue.positions.max(axis=0)
     for _ in range(TRIES):
         start = generator.uniform(low, high)
@@ -92,21 +103,20 @@ def random_line(tissue: Tissue, generator: np.random.Generator) -> Ids:
 def random_source(
     tissue: Tissue, veins: list[Ids], generator: np.random.Generator, clearance: float = CLEARANCE
 ) -> int:
-    """Draw a cell that is not near to any vein."""
-    free = np.flatnonzero(apart(tissue, np.concatenate(veins)) >= clearance)
+    """Draw a cell that is not near to any vein.
+
+    Raises
+    ------
+    ValueError
+        If there is none.
+    """
+    free = np.flatnonzero(tissue.distances_from(np.concatenate(veins)) >= clearance)
     if len(free) == 0:
         raise ValueError("the tissue is too small for its veins")
     return int(free[generator.integers(len(free))])
 
 
-def apart(tissue: Tissue, cells: Ids) -> Floats:
-    """Give the distance of every cell from the nearest of some, by Euclid, shape (n,)."""
-    from scipy.spatial import cKDTree
-
-    return np.asarray(cKDTree(tissue.positions[cells]).query(tissue.positions)[0])
-
-
 def _is_clear(tissue: Tissue, line: Ids, veins: list[Ids]) -> bool:
     """Tell whether a vein is not near to others."""
     others = np.concatenate([line[:0], *veins])
-    return len(others) == 0 or bool((apart(tissue, others)[line] >= CLEARANCE).all())
+    return len(others) == 0 or bool((tissue.distances_from(others)[line] >= CLEARANCE).all())

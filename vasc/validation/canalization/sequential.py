@@ -15,13 +15,14 @@ from vasc.streams import Streams
 from vasc.validation.canalization.leaves import leaf
 from vasc.validation.canalization.protocols import PROTOCOLS, Protocol
 from vasc.validation.canalization.rates import wilson
-from vasc.validation.canalization.scenarios import apart
 from vasc.validation.canalization.settled import settle
 
 N_SOURCES = 45
 """Sources of a leaf."""
 FIRST, SHRINKING, LEAST = 12.0, 0.9, 2.0
 """Birth distance at first, its ratio from one to the next, and its end, in D."""
+COARSE = 1.0
+"""Tolerance of a step: many canals are asked for, and only where they end."""
 DARTS = 1000
 """Darts thrown before the birth distance shrinks."""
 
@@ -47,7 +48,7 @@ def veins_one_by_one(protocol: Protocol, seed: int) -> list[dict[str, Any]]:
             distance *= SHRINKING
             continue
         strand = settle(
-            tissue, protocol.transport, veins, [source], protocol.background, 1.0
+            tissue, protocol.transport, veins, [source], protocol.background, COARSE
         ).strand
         rows.append(
             {
@@ -67,7 +68,7 @@ def veins_one_by_one(protocol: Protocol, seed: int) -> list[dict[str, Any]]:
 
 def dart(tissue: Tissue, cells: Ids, distance: float, generator: np.random.Generator) -> int | None:
     """Throw darts at cells until one is as far from all veins as asked; None for none."""
-    is_free = apart(tissue, cells) >= distance
+    is_free = tissue.distances_from(cells) >= distance
     thrown = generator.integers(tissue.n_cells, size=DARTS)
     hits = thrown[is_free[thrown]]
     return int(hits[0]) if len(hits) else None

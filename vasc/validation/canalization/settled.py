@@ -8,7 +8,6 @@ import numpy as np
 from vasc.analysis.strands import Strand, read_strand
 from vasc.arrays import Ids
 from vasc.domain import Tissue
-from vasc.errors import RunError
 from vasc.events import EventKind
 from vasc.fields import Fields
 from vasc.models.canalization import Canalization
@@ -17,6 +16,9 @@ from vasc.models.settling import Settling
 from vasc.models.transport import Transport
 from vasc.simulation import simulate
 from vasc.streams import Streams
+
+TOLERANCE = Settling().tolerance
+"""Largest change of a wall in a step, relative to its state plus 1, where nothing else is said."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +60,7 @@ def settle(
     veins: Sequence[Ids],
     sources: Sequence[int] | Ids,
     background: float = 0.0,
-    tolerance: float = 0.3,
+    tolerance: float = TOLERANCE,
     noise: float = 0.0,
     seed: int = 1,
 ) -> Settled:
@@ -96,21 +98,19 @@ def settle(
         settling=Settling(tolerance=tolerance, noise=noise),
         last_step=None,
     )
-    state = None
-    for state in simulate(model, Streams(seed, ("placement", "noise"))):  # noqa: B007
-        pass
-    if state is None or state.fields is None:
-        raise RunError("the tissue came to no state")
-    kinds = state.rows("events", "kind")
+    for state in simulate(model, Streams(seed, ("placement", "noise"))):
+        last = state
+    assert last.fields is not None, "a state of a tissue"
+    kinds = last.rows("events", "kind")
     strands = [
-        read_strand(tissue, state.fields, int(cell), veins, transport.activation(tissue))
+        read_strand(tissue, last.fields, int(cell), veins, transport.activation(tissue))
         for cell in cells
     ]
     return Settled(
-        fields=state.fields,
+        fields=last.fields,
         strands=strands,
         is_at_rest=EventKind.CANALS_UNSETTLED not in kinds,
         is_vortex=bool((kinds == EventKind.VORTEX_FORMED).any()),
-        steps=state.step,
-        time=state.time,
+        steps=last.step,
+        time=last.time,
     )

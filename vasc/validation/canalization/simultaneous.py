@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from vasc import kernels
 from vasc.arrays import Floats, Ids, Points
 from vasc.domain import Tissue
 from vasc.models.open import OpenVenation
@@ -29,6 +30,8 @@ SPACING = 3.0
 """Sources are not nearer to each other or to the base, in D."""
 KILL_DISTANCE = 1.0
 """Of the space colonization, in D."""
+COARSE = 1.0
+"""Tolerance of a step: only where canals run is asked for."""
 NEAR = 1.5
 """Two patterns are at one place if they are not farther apart, in D."""
 SAMPLING = 0.25
@@ -57,7 +60,7 @@ def canalized(tissue: Tissue, sources: Ids, base: int) -> tuple[Pattern, dict[st
         With how many canals have ``formed``, and the ``cycles`` of activated walls.
     """
     transport = FacilitatedDiffusion(gain=GAIN / len(sources) ** 2, saturation=GAIN)
-    settled = settle(tissue, transport, [np.array([base], np.int32)], sources, 0.0, 1.0)
+    settled = settle(tissue, transport, [np.array([base], np.int32)], sources, tolerance=COARSE)
     pieces = {
         (min(a, b), max(a, b))
         for strand in settled.strands
@@ -74,6 +77,8 @@ def canalized(tissue: Tissue, sources: Ids, base: int) -> tuple[Pattern, dict[st
 
 def colonized(tissue: Tissue, sources: Ids, base: int) -> Pattern:
     """Grow open venation in the outline of a leaf, from the base to the same sources."""
+    from scipy.spatial import cKDTree
+
     x, y = (tissue.positions[base] / LENGTH).tolist()
     venation = OpenVenation.model_validate(
         {
@@ -84,8 +89,6 @@ def colonized(tissue: Tissue, sources: Ids, base: int) -> Pattern:
     )
     *_, last = simulate(venation.model(), Streams(1, venation.stream_names))
     network = last.network
-    from scipy.spatial import cKDTree
-
     # the last piece, from the vein that has reached a source to it, is not longer than D
     near = cKDTree(network.positions).query(tissue.positions[sources])[1]
     n_nodes = network.n_nodes
@@ -142,14 +145,9 @@ def sampled(pattern: Pattern) -> Points:
 
 def count_cycles(edges: Ids) -> int:
     """Count the independent cycles of the graph that edges make."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     names, numbers = np.unique(edges, return_inverse=True)
-    ends = numbers.reshape(edges.shape)
-    n = len(names)
-    graph = coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(n, n))
-    return len(edges) - n + int(connected_components(graph, directed=False)[0])
+    labels = kernels.components.component_labels(numbers.reshape(edges.shape), len(names))
+    return len(edges) - len(names) + int(labels.max(initial=-1)) + 1
 
 
 def draw_sources(tissue: Tissue, base: int, seed: int) -> Ids:

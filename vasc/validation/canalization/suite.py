@@ -15,8 +15,10 @@ from vasc.validation.canalization.settled import settle
 from vasc.validation.canalization.simultaneous import simultaneous
 from vasc.validation.canalization.two_veins import (
     CASES,
+    COLUMNS,
     FIGURE_PROTOCOLS,
     FIGURE_VEINS,
+    ROWS,
     background_scan,
     figure_rows,
     settled_case,
@@ -147,7 +149,7 @@ def _of_scheme(progress: Progress) -> Iterator[Check]:
     span = f"{TOLERANCES[0]:g} to {TOLERANCES[-1]:g}"
     yield check(f"canals that tolerances from {span} change", changed, 0, 0, MEASURED)
     progress("polar transport without saturation")
-    tissue = rectangular(31, 17)
+    tissue = rectangular(COLUMNS, ROWS)
     veins = [tissue.nearest_cells(line) for line in FIGURE_VEINS]
     source = tissue.nearest_cells([(0.0, 4.0)])
     is_refused = 0
@@ -170,6 +172,7 @@ def _of_rates(rows: list[dict[str, Any]]) -> Iterator[Check]:
     exact = [row for row in rows if row["protocol"] == "facilitated"]
     for tissue in TISSUES:
         found = [row for row in exact if row["tissue"] == tissue]
+        # ways over square cells are longer along diagonals: 5 of 571 clear ones were missed
         limits = {"clear": (CLEAR, 0.98), "exact": (EXACT[tissue], 1.0)}
         for kind, (limit, least) in limits.items():
             if kind == "clear" and EXACT[tissue] >= limit:
@@ -197,6 +200,7 @@ def _of_trees(tables: dict[str, list[dict[str, Any]]]) -> Iterator[Check]:
             # 1.15 over 2.23 was measured: the closed rule asks for more strands than form
             yield check(name, share, 0.3, 0.8, f"{MEASURED}; {CLOSED_RULE}")
     one_by_one = tables["sequential"][0]
+    # 1.03 was measured by another program
     yield check(
         "one by one: distance of the end over that of the nearest node, median",
         one_by_one["excess_median"],
@@ -206,5 +210,6 @@ def _of_trees(tables: dict[str, list[dict[str, Any]]]) -> Iterator[Check]:
     )
     canals, colonies, _ = tables["simultaneous"]
     yield check("at once: cycles", max(canals["cycles"]), 0, 0, MEASURED)
+    # 1.46 was measured by another program, about 1.6 by this one: canals merge late
     ratio = canals["length_mean"] / colonies["length_mean"]
     yield check("at once: length over that of space colonization", ratio, 1.2, 1.8, MEASURED)

@@ -21,10 +21,10 @@ from vasc.models.transport import (
 )
 from vasc.streams import Streams
 from vasc.validation.canalization.geometric import ratio_to_second
-from vasc.validation.canalization.protocols import Protocol
+from vasc.validation.canalization.protocols import PROTOCOLS, Protocol
 from vasc.validation.canalization.rates import wilson
-from vasc.validation.canalization.scenarios import CLEARANCE, TISSUES, apart
-from vasc.validation.canalization.settled import Settled, settle
+from vasc.validation.canalization.scenarios import CLEARANCE, TISSUES
+from vasc.validation.canalization.settled import TOLERANCE, Settled, settle
 
 COLUMNS, ROWS = 31, 17
 """The tissue of the figure, in cells."""
@@ -72,15 +72,12 @@ CASES = (
 )
 """The first two are those of the figure."""
 
-FIGURE_PROTOCOLS = (
-    Protocol("facilitated", FacilitatedDiffusion()),
-    Protocol("pool, background", PooledTransport(), 0.5),
-)
+FIGURE_PROTOCOLS = (PROTOCOLS["facilitated"], PROTOCOLS["pool, background"])
 """Facilitated diffusion, and polar transport with background production."""
 
 
 def settled_case(
-    case: TwoVeins, tissue: str, protocol: Protocol, seed: int = 1, tolerance: float = 0.3
+    case: TwoVeins, tissue: str, protocol: Protocol, seed: int = 1, tolerance: float = TOLERANCE
 ) -> Settled:
     """Let the canal of a case form in a tissue of some kind."""
     cells = TISSUES[tissue](COLUMNS, ROWS, seed)
@@ -179,7 +176,7 @@ def _drawn_case(tissue: str, protocol: Protocol, seed: int) -> Settled:
     """Let the canal of a source anywhere form."""
     cells = TISSUES[tissue](COLUMNS, ROWS, seed)
     veins = [cells.nearest_cells(line) for line in FIGURE_VEINS]
-    left, right = (apart(cells, vein) for vein in veins)
+    left, right = (cells.distances_from(vein) for vein in veins)
     is_free = (np.minimum(left, right) >= CLEARANCE) & (np.abs(left - right) >= 1.0)
     source = Streams(seed, ("source",))["source"].choice(np.flatnonzero(is_free))
     return settle(cells, protocol.transport, veins, [int(source)], protocol.background)
