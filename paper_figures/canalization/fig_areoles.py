@@ -36,8 +36,9 @@ GAP = 2.0
 def main(output: Path, size: int = 12) -> None:
     """Draw the figure; ``size`` is about half the width of the areole in cells."""
     tissue = tissue_in(RING * size / 12.5, seed=2)
-    # a ring comes back to its first cell, which is in the vein once
-    veins = [tissue.margins[0][:-1]]
+    # the ring comes back to its first cell, which is in the vein once
+    ring = tissue.margins[0]
+    veins = [ring[:-1]]
     figure, axes = row_of(8, (7.0, 3.95), rows=2)
     panels = iter(axes)
     for name, place in PLACES.items():
@@ -46,7 +47,7 @@ def main(output: Path, size: int = 12) -> None:
         for ratio in RATIOS:
             ax = next(panels)
             transport = FacilitatedDiffusion(gain=GAIN, saturation=GAIN / ratio)
-            state = settle(tissue, transport, veins, [source])
+            state = settle(tissue, transport, [ring], [source])
             strand = strand_of(state, transport, source, veins)
             draw_tissue(state, ax, title=False, scale_bar=False, key=False, style=STYLE)
             ax.plot(*crosses.T, "x", color=RED, markersize=7, markeredgewidth=2.0, zorder=7)
