@@ -1,14 +1,13 @@
 """The checks of a leaf, each a number in a range."""
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from vasc.analysis.junctions import balanced_angles
-from vasc.analysis.widths import WidthParameters
+from vasc.arrays import Floats
 from vasc.validation.leaf_references import (
     DALBERGIA_ANGLES,
     DALBERGIA_NUMBERS,
@@ -20,7 +19,6 @@ from vasc.validation.leaf_references import (
     SAME,
     LeafRange,
 )
-from vasc.validation.vein_statistics.branchings import branching_exponents
 from vasc.validation.vein_statistics.densities import Densities
 from vasc.validation.vein_statistics.samples import LeafSample
 
@@ -157,10 +155,9 @@ def check_leaf(sample: LeafSample) -> list[LeafCheck]:
     return [LeafCheck(sample.name, LEAF_RANGES[key], value) for key, value in values.items()]
 
 
-def check_open(sample: LeafSample, widths: WidthParameters) -> list[LeafCheck]:
-    """Hold open venation against the checks 11 and 14."""
-    exponents = branching_exponents(sample.leaf.network, widths)
-    off = float(np.abs(exponents - widths.exponent).max()) if len(exponents) else math.nan
+def check_open(sample: LeafSample, exponents: Floats, asked: float) -> list[LeafCheck]:
+    """Hold open venation, and the exponents at its branchings, against the checks 11 and 14."""
+    off = float(np.abs(exponents - asked).max()) if len(exponents) else math.nan
     values = {"mst_open": round(sample.numbers["mst_ratio"], 12), "murray": off}
     return [LeafCheck(sample.name, LEAF_RANGES[key], value) for key, value in values.items()]
 
@@ -204,8 +201,8 @@ def reported(sample: LeafSample) -> list[Table]:
 
 def as_table(checks: list[LeafCheck]) -> list[Table]:
     """Give checks as plain values, by number, in the order of their leaves."""
-    by_number: Callable[[LeafCheck], int] = lambda check: check.asked.number  # noqa: E731
-    return [check.as_json() for check in sorted(checks, key=by_number)]
+    rows = sorted(checks, key=lambda check: check.asked.number)
+    return [check.as_json() for check in rows]
 
 
 def _ratio(value: float | None, other: float | None) -> float:

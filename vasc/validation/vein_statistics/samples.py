@@ -80,7 +80,7 @@ class LeafSample:
         return int(shapely.contains_xy(enclosed_region(self.measured.sections), places).sum())
 
 
-def sample_of_run(name: str, kind: str, path: Path, widths: str | None = None) -> LeafSample:
+def sample_of_run(name: str, kind: str, path: Path) -> LeafSample:
     """Give the last step of a recorded run as a leaf.
 
     Parameters
@@ -91,8 +91,6 @@ def sample_of_run(name: str, kind: str, path: Path, widths: str | None = None) -
         The model.
     path : Path
         The timeline.
-    widths : {"murray", "elongation"}, optional
-        A rule for the widths in place of the config's.
 
     Returns
     -------
@@ -101,7 +99,7 @@ def sample_of_run(name: str, kind: str, path: Path, widths: str | None = None) -
     """
     with Timeline(path) as timeline:
         frame = timeline.frame()
-        asked = widths_of(timeline.config, widths)
+        asked = widths_of(timeline.config)
         network = frame.network
         found = run_widths(timeline.frame, frame.step, asked)
         event = (timeline.config.get("mesophyll") or {}).get("kind", NEVER)
@@ -109,12 +107,9 @@ def sample_of_run(name: str, kind: str, path: Path, widths: str | None = None) -
     return LeafSample(name, kind, RealNetwork(network, found, network.lengths, "D"), has_event)
 
 
-def widths_of(config: Mapping[str, Any], rule: str | None = None) -> WidthParameters:
-    """Give the rule of widths of a config, perhaps with another one in its place."""
-    asked = dict(config.get("widths") or {})
-    if rule is not None:
-        asked["rule"] = rule
-    return WidthParameters.model_validate(asked)
+def widths_of(config: Mapping[str, Any]) -> WidthParameters:
+    """Give the rule of widths that a config asks for."""
+    return WidthParameters.model_validate(config.get("widths") or {})
 
 
 def dalbergia_folder() -> Path:

@@ -7,9 +7,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from vasc.arrays import Floats
 from vasc.config import Experiment, load, load_text
 from vasc.experiment import run
 from vasc.timeline import Timeline
+from vasc.validation.vein_statistics.branchings import branching_exponents
 from vasc.validation.vein_statistics.checks import (
     LeafCheck,
     as_table,
@@ -20,6 +22,7 @@ from vasc.validation.vein_statistics.checks import (
     reported,
 )
 from vasc.validation.vein_statistics.densities import Densities, densities_of
+from vasc.validation.vein_statistics.distributions import curves, distributions
 from vasc.validation.vein_statistics.samples import (
     LeafSample,
     dalbergia,
@@ -41,7 +44,7 @@ Progress = Callable[[str], None]
 
 @dataclass(frozen=True)
 class LeafReport:
-    """What came of the checks, and what pictures are made from.
+    """The leaves, and what came of the checks.
 
     Parameters
     ----------
@@ -49,15 +52,15 @@ class LeafReport:
         All of them.
     samples : list of LeafSample
         The leaves with areoles; the real one is the last.
-    open_leaf : LeafSample
-        The open leaf.
+    exponents : ndarray of shape (b,), float64
+        Murray's exponent at each branching of the open leaf.
     densities : dict of str to Densities
         Of the growing leaves.
     """
 
     checks: list[LeafCheck]
     samples: list[LeafSample]
-    open_leaf: LeafSample
+    exponents: Floats
     densities: dict[str, Densities]
 
     def as_suite(self) -> dict[str, Any]:
@@ -68,8 +71,9 @@ class LeafReport:
         dict
             ``name``, ``checks``, each with its ``name``, ``value``, ``low``, ``high``,
             ``source``, ``basis`` of the range and ``pass``; ``reported``, numbers that decide
-            nothing; and ``control_failures``, checks that the real leaf fails: in these the
-            check is wrong, not the leaf.
+            nothing; ``control_failures``, checks that the real leaf fails: in these the
+            check is wrong, not the leaf; and ``distributions``, ``curves`` and ``exponents``,
+            which pictures are drawn from.
         """
         real = {sample.name for sample in self.samples if sample.kind == "real"}
         checks = as_table(self.checks)
@@ -80,6 +84,9 @@ class LeafReport:
             "control_failures": [
                 check["name"] for check in checks if check["leaf"] in real and not check["pass"]
             ],
+            "distributions": distributions(self.samples),
+            "curves": curves(self.samples, self.densities),
+            "exponents": self.exponents.tolist(),
         }
 
 
@@ -112,13 +119,15 @@ def validate_leaf(progress: Progress = lambda name: None) -> LeafReport:
         path = recorded(load(OPEN), Path(folder))
         open_leaf = sample_of_run(OPEN, "open", path)
         with Timeline(path) as timeline:
-            checks += check_open(open_leaf, widths_of(timeline.config))
+            asked = widths_of(timeline.config)
+    exponents = branching_exponents(open_leaf.leaf.network, asked)
+    checks += check_open(open_leaf, exponents, asked.exponent)
     progress("Dalbergia, a real leaf: measuring")
     samples.append(dalbergia())
     for sample in samples:
         checks += check_leaf(sample)
     checks += check_numbers(samples[-1])
-    return LeafReport(checks, samples, open_leaf, densities)
+    return LeafReport(checks, samples, exponents, densities)
 
 
 def recorded(experiment: Experiment, folder: Path) -> Path:
@@ -136,10 +145,11 @@ def growing(path: Path) -> Densities:
 
 
 def changed(name: str, change: dict[str, dict[str, Any]]) -> Experiment:
-    """Give a bundled experiment with keys of its tables changed."""
+    """Give a bundled experiment with keys of its tables changed, or left out for None."""
     import tomli_w
 
     tables = deepcopy(load(name).tables)
     for table, values in change.items():
-        tables[table] = tables.get(table, {}) | values
+        merged = tables.get(table, {}) | values
+        tables[table] = {key: value for key, value in merged.items() if value is not None}
     return load_text(tomli_w.dumps(tables))

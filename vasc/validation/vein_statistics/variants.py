@@ -26,43 +26,41 @@ class LeafVariant:
     name : str
         What is changed.
     change : mapping
-        Keys of the config, by table.
-    widths : {"murray", "elongation"}, optional
-        Another rule for the widths.
+        Keys of the config, by table; None takes one away.
     """
 
     base: str
     kind: str
     name: str
     change: Change = field(default_factory=dict)
-    widths: str | None = None
 
 
-def _closed(name: str, widths: str | None = None, **change: Mapping[str, Any]) -> LeafVariant:
-    return LeafVariant(CLOSED, "closed", name, change, widths)
+def _closed(name: str, **change: Mapping[str, Any]) -> LeafVariant:
+    """Change closed venation."""
+    return LeafVariant(CLOSED, "closed", name, change)
 
 
-def _areole(name: str, widths: str | None = None, **change: Mapping[str, Any]) -> LeafVariant:
-    return LeafVariant(MATURE, "areole", name, change, widths)
+def _areole(name: str, **change: Mapping[str, Any]) -> LeafVariant:
+    """Change areole venation."""
+    return LeafVariant(MATURE, "areole", name, change)
 
 
 LEAF_VARIANTS = (
+    _areole("as bundled"),
+    _areole("no refinement", refinement={"kind": "none", "threshold": None, "alpha": None}),
+    _areole("corners cut with alpha 0.75", refinement={"alpha": 0.75}),
+    _areole("corners cut from 2 D on", refinement={"threshold": 2.0}),
+    _areole("widths by Murray's law", widths={"rule": "murray"}),
+    _areole("veins lean by 0.3", extension={"lean": 0.3}),
+    _areole("sources wander by 0.3", placement={"wander": 0.3}),
+    _areole("lean and wander by 0.3", extension={"lean": 0.3}, placement={"wander": 0.3}),
     _closed("as bundled"),
     _closed("join distance 1 D", arrival={"join_distance": 1.0}),
     _closed("join distance 4 D", arrival={"join_distance": 4.0}),
-    _closed("join distance 8 D", arrival={"join_distance": 8.0}),
     _closed("subdivision", refinement={"kind": "subdivision"}),
     _closed("corner cutting", refinement={"kind": "corner_cutting"}),
     _closed("Murray exponent 3", widths={"exponent": 3.0}),
-    _closed("widths by elongation", "elongation"),
-    _areole("as bundled"),
-    _areole("no refinement", refinement={"kind": "none"}),
-    _areole("subdivision", refinement={"kind": "subdivision"}),
-    _areole("corners cut with alpha 0.75", refinement={"alpha": 0.75}),
-    _areole("corners cut from 2 D on", refinement={"threshold": 2.0}),
-    _areole("corners cut with jitter 0.2 D", refinement={"jitter": 0.2}),
-    _areole("widths by Murray's law", "murray"),
-    _areole("Murray exponent 3", "murray", widths={"exponent": 3.0}),
+    _closed("widths by elongation", widths={"rule": "elongation"}),
 )
 """Refinement, joins and widths, on closed and on areole venation."""
 
@@ -91,7 +89,7 @@ def compare_variants(
         change = {table: dict(keys) for table, keys in variant.change.items()}
         with TemporaryDirectory() as folder:
             path = recorded(changed(variant.base, change), Path(folder))
-            sample = sample_of_run(variant.name, variant.kind, path, variant.widths)
+            sample = sample_of_run(variant.name, variant.kind, path)
         checks = check_leaf(sample)
         rows.append(
             {
