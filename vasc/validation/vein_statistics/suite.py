@@ -145,11 +145,11 @@ def growing(path: Path) -> Densities:
 
 
 def changed(name: str, change: dict[str, dict[str, Any]]) -> Experiment:
-    """Give a bundled experiment with keys of its tables changed, or left out for None."""
+    """Give a bundled experiment with keys of its tables changed."""
     import tomli_w
 
     tables = deepcopy(load(name).tables)
     for table, values in change.items():
-        merged = tables.get(table, {}) | values
-        tables[table] = {key: value for key, value in merged.items() if value is not None}
+        # of another kind, nothing of the old table has a meaning
+        tables[table] = values if "kind" in values else tables.get(table, {}) | values
     return load_text(tomli_w.dumps(tables))

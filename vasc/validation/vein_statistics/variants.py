@@ -26,7 +26,7 @@ class LeafVariant:
     name : str
         What is changed.
     change : mapping
-        Keys of the config, by table; None takes one away.
+        Keys of the config, by table; with a ``kind``, the table is a new one.
     """
 
     base: str
@@ -47,7 +47,7 @@ def _areole(name: str, **change: Mapping[str, Any]) -> LeafVariant:
 
 LEAF_VARIANTS = (
     _areole("as bundled"),
-    _areole("no refinement", refinement={"kind": "none", "threshold": None, "alpha": None}),
+    _areole("no refinement", refinement={"kind": "none"}),
     _areole("corners cut with alpha 0.75", refinement={"alpha": 0.75}),
     _areole("corners cut from 2 D on", refinement={"threshold": 2.0}),
     _areole("widths by Murray's law", widths={"rule": "murray"}),
