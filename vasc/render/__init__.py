@@ -4,6 +4,7 @@ from vasc.render.animation import FILM_SUFFIXES, Film, animate
 from vasc.render.files import render
 from vasc.render.growth import GrownGrid, GrowthMap, draw_growth
 from vasc.render.leaf import draw_leaf
+from vasc.render.leaf_checks import draw_leaf_check, draw_leaf_checks, save_leaf_checks
 from vasc.render.saving import PICTURE_SUFFIXES, save
 from vasc.render.sequence import draw_sequence
 from vasc.render.stems import StemStyle, draw_stem
@@ -24,10 +25,13 @@ __all__ = [
     "animate",
     "draw_growth",
     "draw_leaf",
+    "draw_leaf_check",
+    "draw_leaf_checks",
     "draw_sequence",
     "draw_stem",
     "draw_transitions",
     "draw_unrolled",
     "render",
     "save",
+    "save_leaf_checks",
 ]

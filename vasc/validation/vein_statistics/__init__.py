@@ -3,7 +3,7 @@
 from vasc.validation.vein_statistics.checks import AngleClass, LeafCheck, angle_classes, check_leaf
 from vasc.validation.vein_statistics.densities import Densities, densities_of
 from vasc.validation.vein_statistics.samples import LeafSample, dalbergia, sample_of_run
-from vasc.validation.vein_statistics.suite import LeafReport, validate_leaf
+from vasc.validation.vein_statistics.suite import LeafReport, leaf_suite, validate_leaf
 
 __all__ = [
     "AngleClass",
@@ -15,6 +15,7 @@ __all__ = [
     "check_leaf",
     "dalbergia",
     "densities_of",
+    "leaf_suite",
     "sample_of_run",
     "validate_leaf",
 ]

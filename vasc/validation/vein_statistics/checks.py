@@ -129,7 +129,7 @@ def check_leaf(sample: LeafSample) -> list[LeafCheck]:
     """
     numbers = sample.numbers
     degrees = {int(key): share for key, share in numbers["junction_degree"].items()}
-    values: dict[str, float] = {
+    values: dict[str, float | None] = {
         "degree_three": degrees.get(3, 0.0),
         "degree_most": max(degrees, default=0),
         "corners_mean": numbers["areole_corners_mean"],
@@ -152,7 +152,10 @@ def check_leaf(sample: LeafSample) -> list[LeafCheck]:
         "angle_off": max((value for value in off if not math.isnan(value)), default=math.nan),
         "hierarchy": _less(numbers["loop_asymmetry"], numbers["loop_asymmetry_shuffled"]),
     }
-    return [LeafCheck(sample.name, LEAF_RANGES[key], value) for key, value in values.items()]
+    return [
+        LeafCheck(sample.name, LEAF_RANGES[key], math.nan if value is None else value)
+        for key, value in values.items()
+    ]
 
 
 def check_open(sample: LeafSample, exponents: Floats, asked: float) -> list[LeafCheck]:

@@ -130,6 +130,11 @@ def validate_leaf(progress: Progress = lambda name: None) -> LeafReport:
     return LeafReport(checks, samples, exponents, densities)
 
 
+def leaf_suite(progress: Progress = lambda name: None) -> dict[str, Any]:
+    """Run the bundled leaves, and give the suite as ``vasc validate --json`` writes it."""
+    return validate_leaf(progress).as_suite()
+
+
 def recorded(experiment: Experiment, folder: Path) -> Path:
     """Run an experiment into a folder, and give the timeline."""
     path = folder / "run.h5"
