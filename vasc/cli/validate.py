@@ -108,21 +108,32 @@ def _print_leaf(suite: dict) -> None:
             "pass" if check["pass"] else "FAIL",
             "-" if check["value"] is None else f"{check['value']:.4g}",
             _asked(check["low"], check["high"]),
-            check["source"],
         )
         for check in suite["checks"]
     ]
-    print_table(("check", "what", "leaf", "verdict", "value", "asked", "source"), rows)
+    print_table(("check", "what", "leaf", "verdict", "value", "asked"), rows)
     typer.echo("\nreported, deciding nothing")
     told = [
         (one["name"], f"{one['value']:.4g}", one["seen"], one["source"])
         for one in suite["reported"]
     ]
     print_table(("what", "value", "in the literature", "source"), told)
-    failed = [check["name"] for check in suite["checks"] if not check["pass"]]
-    typer.echo(f"\n{len(suite['checks']) - len(failed)} of {len(suite['checks'])} checks pass")
+    failed = [check for check in suite["checks"] if not check["pass"]]
+    n_checks = len(suite["checks"])
+    typer.echo(f"\n{n_checks - len(failed)} of {n_checks} checks pass; not")
+    reasons = [(one["name"], _against(one), one["source"]) for one in failed]
+    print_table(("what", "why", "source of the range"), reasons)
     for name in suite["control_failures"]:
         typer.echo(f"the real leaf fails {name}: that check is wrong, not the leaf")
+
+
+def _against(check: dict) -> str:
+    """Say how a value misses its range."""
+    if check["value"] is None:
+        return "the leaf has no such number"
+    if check["value"] < check["low"]:
+        return f"{check['value']:.4g} is below {check['low']:.4g}"
+    return f"{check['value']:.4g} is above {check['high']:.4g}"
 
 
 def _asked(low: float, high: float | None) -> str:

@@ -100,8 +100,8 @@ def draw_values(ax: Axes, suite: Suite, number: int, what: str, species: str | N
         ax.plot(check["value"], -row, marker, color=color, markeredgecolor=edge, markersize=6.0,
                 markeredgewidth=1.6)  # fmt: skip
         if not check["pass"]:
-            ax.annotate("fails", (check["value"], -row), xytext=(0.0, 6.0), color=FAIL,
-                        textcoords="offset points", ha="center", fontsize=TEXT_SIZE - 1.0)  # fmt: skip
+            place = (check["value"], -row + 0.25)
+            ax.text(*place, "fails", color=FAIL, ha="center", fontsize=TEXT_SIZE - 1.0)
         rows.append(check["leaf"])
     if species is not None:
         low, left, middle, right, high = suite["curves"]["species"][species]
