@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import shutil
+import sys
 
 import h5py
 import pytest
@@ -343,17 +344,39 @@ def test_a_leaf_is_not_unrolled(recorded, tmp_path, capsys):
     assert not (tmp_path / "a.png").exists()
 
 
-def test_only_a_stem_is_exported(recorded, tmp_path, capsys):
-    words = ["export", str(recorded / "leaf.h5"), "-o", str(tmp_path / "a.ply")]
-    assert main(words) == 2
-    assert "is no stem, but a run of the kind" in capsys.readouterr().err
-    (tmp_path / "stem.toml").write_text(STEM)
-    run = str(tmp_path / "stem.h5")
-    assert main(["run", str(tmp_path / "stem.toml"), "-o", run, "--no-figure", "--quiet"]) == 0
-    words[1] = run
-    assert main(words) == 0
-    capsys.readouterr()
-    assert main(words) == 2
-    assert "exists" in capsys.readouterr().err
-    assert main([*words, "--force", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out) == {"files": [str(tmp_path / "a.ply")]}
+def test_a_run_is_exported_once_and_again_when_forced(leaf, tmp_path, capsys):
+    for name in ("a.graphml", "a.csv", "a.pvd"):
+        words = ["export", leaf, "-o", str(tmp_path / name), "--step", "20"]
+        assert name in output(words, capsys)
+        assert main(words) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert "exists already; use --force" in line
+        written = output([*words, "--force", "--json"], capsys)
+        assert json.loads(written) == {"files": [str(tmp_path / name)]}
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["-o", "a.bmp"], "'.bmp' is not one of .csv"),
+        (["-o", "a"], "'' is not one of .csv"),
+        (["-o", "none/a.svg"], "the folder 'none' does not exist"),
+        (["-o", "a.svg", "--every", "2"], "--every is for a series"),
+        (["-o", "a.swc"], "--spanning-tree leaves the joins out"),
+        (["-o", "a.vtp", "--step", "9999"], "step 9999 is not recorded"),
+    ],
+)
+def test_a_wrong_export_is_refused_in_a_line(words, said, leaf, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["export", leaf, *words]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert said in line
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_missing_package_is_named_in_a_line(leaf, tmp_path, capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "trimesh", None)
+    assert main(["export", leaf, "-o", str(tmp_path / "a.obj")]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert 'pip install "vasc[mesh]"' in line
+    assert list(tmp_path.iterdir()) == []

@@ -48,7 +48,11 @@ VERBS = (
 GROUPS = (
     (
         check,
-        {"sequence": check.SEQUENCE_EXAMPLES, "connectivity": check.CONNECTIVITY_EXAMPLES},
+        {
+            "sequence": check.SEQUENCE_EXAMPLES,
+            "connectivity": check.CONNECTIVITY_EXAMPLES,
+            "strand": check.STRAND_EXAMPLES,
+        },
     ),
 )
 

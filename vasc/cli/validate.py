@@ -13,12 +13,12 @@ from vasc.cli.run import check_picture
 EXAMPLES = (
     "vasc validate growth",
     "vasc validate transitions -o transitions.png",
+    "vasc validate canalization --n 200 -o canals.json",
     "vasc validate leaf -o leaves.png",
     "vasc validate --json",
 )
 
-SUITES = ("growth", "stem", "transitions", "leaf")
-DRAWN = ("transitions", "leaf")
+SUITES = ("growth", "stem", "transitions", "canalization", "leaf")
 
 
 def validate(
@@ -31,49 +31,99 @@ def validate(
         typer.Option(
             "--output",
             "-o",
-            metavar="PICTURE",
-            help="Draw the transitions, or the leaves: png, svg or pdf; leaves into a folder also.",
+            metavar="FILE",
+            help="Draw the transitions or the leaves: png, svg, pdf, leaves into a folder also; or"
+            " write what canalization found: json.",
+        ),
+    ] = None,
+    n: Annotated[
+        int | None,
+        typer.Option(
+            "--n", min=5, max=10_000, help="Scenarios a rate of canalization: 20, or 200 for all."
         ),
     ] = None,
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
-    """Run the validation suites, about a minute each; exit code 1 if a check fails.
+    """Run the validation suites, a minute or two each; exit code 1 if a check fails.
 
     growth: which growth of the first leaf of Arabidopsis makes which sequence of veins.
     stem: what the veins of the stems of the thesis connect.
     transitions: what stems connect over the ratio of radius to rise, against the predicted
     thresholds.
+    canalization: whether canals reach the vein nodes that the open and the closed rule of
+    geometry predict, by which model, and where not.
     leaf: statistics of the veins of simulated leaves, against those of real ones. A folder as
     --output gets a picture for each check.
     """
+    from vasc.cli.canals import print_canalization
+    from vasc.cli.leaves import print_leaves
     from vasc.cli.printing import print_json
     from vasc.errors import ConfigError
 
     if suite is not None and suite not in SUITES:
         raise ConfigError(f"suite = {suite!r}: must be one of {', '.join(SUITES)}")
+    if n is not None and suite not in (None, "canalization"):
+        raise ConfigError(f"--n {n}: only the suite canalization draws scenarios")
     if output is not None:
-        if suite not in DRAWN:
-            raise ConfigError(
-                f"--output {output}: one of the suites {' and '.join(DRAWN)} is drawn at a time"
-            )
-        if suite != "leaf" or not output.is_dir():
-            check_picture(output, force=force)
-    suites = [run() for name, run in _suites().items() if suite in (None, name)]
+        _check_output(output, suite, force=force)
+    suites = [run() for name, run in _suites(n).items() if suite in (None, name)]
     if output is not None:
-        _draw(suites[0], output)
+        _write(output, suites)
     passed = all(check["pass"] for one in suites for check in one["checks"])
     if as_json:
         print_json({"suites": suites, "pass": passed})
     else:
+        printed = PRINTED | {"canalization": print_canalization, "leaf": print_leaves}
         for one in suites:
-            PRINTERS.get(one["name"], _print_stem)(one)
+            printed[one["name"]](one)
     if not passed:
         raise typer.Exit(1)
 
 
-def _suites() -> dict[str, Callable[[], dict[str, Any]]]:
+def _check_output(output: Path, suite: str | None, *, force: bool) -> None:
+    """Refuse a file that the suites make nothing for, or that exists."""
+    from vasc.errors import ConfigError
+
+    if suite == "canalization":
+        if output.suffix != ".json":
+            raise ConfigError(f"--output {output}: tables of canalization are written as .json")
+        if output.exists() and not force:
+            raise ConfigError(f"{output} exists; --force replaces it")
+        if not output.parent.is_dir():
+            raise ConfigError(f"--output {output}: there is no folder {output.parent}")
+        return
+    if suite not in (None, "transitions", "leaf"):
+        raise ConfigError(
+            f"--output {output}: the suites transitions and leaf are drawn, the tables of"
+            " canalization written"
+        )
+    if suite == "leaf" and output.is_dir():
+        return
+    check_picture(output, force=force)
+
+
+def _write(output: Path, suites: list[dict[str, Any]]) -> None:
+    """Write the tables of canalization, or draw the transitions or the leaves."""
+    found = {one["name"]: one for one in suites}
+    if output.suffix == ".json":
+        import json
+
+        output.write_text(json.dumps(found["canalization"], indent=2, allow_nan=False) + "\n")
+        return
+    from vasc.render import draw_transitions, save, save_leaf_checks
+
+    if "transitions" not in found:
+        save_leaf_checks(found["leaf"], output)
+        return
+    save(
+        draw_transitions(found["transitions"]["stems"], found["transitions"]["thresholds"]), output
+    )
+
+
+def _suites(n: int | None) -> dict[str, Callable[[], dict[str, Any]]]:
     """Give the suites, each ready to run."""
+    from vasc.validation.canalization.suite import DEFAULT, validate_canalization
     from vasc.validation.growth_variants import validate_growth
     from vasc.validation.stem_suite import validate_stem
     from vasc.validation.stem_transitions import validate_transitions
@@ -82,63 +132,15 @@ def _suites() -> dict[str, Callable[[], dict[str, Any]]]:
     def progress(name: str) -> None:
         typer.echo(f"running: {name}", err=True)
 
-    found = (validate_growth, validate_stem, validate_transitions, leaf_suite)
+    canals = partial(validate_canalization, n=DEFAULT if n is None else n)
+    found: tuple[Callable[..., dict[str, Any]], ...] = (
+        validate_growth,
+        validate_stem,
+        validate_transitions,
+        canals,
+        leaf_suite,
+    )
     return {name: partial(run, progress) for name, run in zip(SUITES, found, strict=True)}
-
-
-def _draw(suite: dict, output: Path) -> None:
-    """Draw the transitions or the leaves."""
-    from vasc.render import draw_transitions, save, save_leaf_checks
-
-    if suite["name"] == "leaf":
-        save_leaf_checks(suite, output)
-    else:
-        save(draw_transitions(suite["stems"], suite["thresholds"]), output)
-
-
-def _print_leaf(suite: dict) -> None:
-    """Write the suite of leaves for people: what was asked, what came, and what fails."""
-    from vasc.cli.printing import print_table
-
-    rows = [
-        (
-            check["check"],
-            check["what"],
-            check["leaf"],
-            "pass" if check["pass"] else "FAIL",
-            "-" if check["value"] is None else f"{check['value']:.4g}",
-            _asked(check["low"], check["high"]),
-        )
-        for check in suite["checks"]
-    ]
-    print_table(("check", "what", "leaf", "verdict", "value", "asked"), rows)
-    typer.echo("\nreported, deciding nothing")
-    told = [
-        (one["name"], f"{one['value']:.4g}", one["seen"], one["source"])
-        for one in suite["reported"]
-    ]
-    print_table(("what", "value", "in the literature", "source"), told)
-    failed = [check for check in suite["checks"] if not check["pass"]]
-    n_checks = len(suite["checks"])
-    typer.echo(f"\n{n_checks - len(failed)} of {n_checks} checks pass; not")
-    reasons = [(one["name"], _against(one), one["source"]) for one in failed]
-    print_table(("what", "why", "source of the range"), reasons)
-    for name in suite["control_failures"]:
-        typer.echo(f"the real leaf fails {name}: that check is wrong, not the leaf")
-
-
-def _against(check: dict) -> str:
-    """Say how a value misses its range."""
-    if check["value"] is None:
-        return "the leaf has no such number"
-    if check["value"] < check["low"]:
-        return f"{check['value']:.4g} is below {check['low']:.4g}"
-    return f"{check['value']:.4g} is above {check['high']:.4g}"
-
-
-def _asked(low: float, high: float | None) -> str:
-    """Write a range; None is no upper limit."""
-    return f"{low:.4g} or more" if high is None else f"{low:.4g} to {high:.4g}"
 
 
 def _print_stem(suite: dict) -> None:
@@ -178,5 +180,9 @@ def _print_growth(suite: dict) -> None:
     print_table(("growth", "verdict", "fails", "expected to fail"), rows)
 
 
-PRINTERS: dict[str, Callable[[dict], None]] = {"growth": _print_growth, "leaf": _print_leaf}
-"""What writes a suite for people, where it is not a suite of stems."""
+PRINTED: dict[str, Callable[[dict], None]] = {
+    "growth": _print_growth,
+    "stem": _print_stem,
+    "transitions": _print_stem,
+}
+"""How the suites without transport are written for people."""

@@ -6,9 +6,20 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vasc.fields import FIELD_COLUMNS
 from vasc.state import TABLE_COLUMNS, Places, State
-from vasc.timeline.layout import DIMENSIONS, MOTION, STEM_RING, Motion, count_column, motion_of
+from vasc.timeline.layout import (
+    DIMENSIONS,
+    FIELDS,
+    MOTION,
+    STEM_RING,
+    TISSUE,
+    Motion,
+    count_column,
+    motion_of,
+)
 from vasc.timeline.reader import Timeline
+from vasc.timeline.tissues import arrays_of
 
 FRAME_COLUMNS = ("time", "motion", "outline_motion")
 """Columns of ``frames`` that a state gives under the same name, if at all."""
@@ -18,7 +29,8 @@ class Difference(NamedTuple):
     """The first value of a column that a second run gives differently.
 
     The row is -1 when a whole is compared. In the table ``motion``, of explicit
-    positions, it is counted from the first row of the step.
+    positions, and in that of the ``fields`` of a tissue, it is counted from the first row
+    of the step.
     """
 
     step: int
@@ -40,11 +52,24 @@ def compare_places(timeline: Timeline, state: State, found: dict[str, Difference
             found[name] = difference
 
 
+def compare_fields(timeline: Timeline, state: State, found: dict[str, Difference]) -> None:
+    """Compare the fields of a step; the first difference of each is added."""
+    if state.fields is None or timeline.tissue is None:
+        return
+    fields = timeline.fields(state.step)
+    for name in (one for one in FIELD_COLUMNS if one not in found):
+        recorded, repeated = getattr(fields, name), getattr(state.fields, name)
+        steps = np.full(max(len(recorded), len(repeated)), state.step)
+        for difference in _difference(FIELDS, name, recorded, repeated, steps):
+            found[name] = difference
+
+
 def form_differences(timeline: Timeline, state: State) -> Iterator[Difference]:
-    """Compare the dimensions, the motion, and the ring at the base of a stem."""
+    """Compare the dimensions, the motion, the ring at the base of a stem, and the cells."""
     for name, recorded, repeated in (
         (DIMENSIONS, timeline.dimensions, state.dimensions),
         (MOTION, timeline.motion, motion_of(state)),
+        (TISSUE, int(timeline.tissue is not None), int(state.tissue is not None)),
     ):
         if recorded != repeated:
             yield Difference(0, "", name, -1, str(recorded), str(repeated))
@@ -53,6 +78,11 @@ def form_differences(timeline: Timeline, state: State) -> Iterator[Difference]:
         rings = timeline.base_ring, state.base_ring
         steps = np.zeros(max(map(len, rings)), dtype=np.int64)
         yield from _difference(table, column, *rings, steps)
+    if timeline.tissue is not None and state.tissue is not None:
+        again = arrays_of(state.tissue)
+        for path, rows in arrays_of(timeline.tissue).items():
+            steps = np.zeros(max(len(rows), len(again[path])), dtype=np.int64)
+            yield from _difference(TISSUE, path.partition("/")[2], rows, again[path], steps)
 
 
 def frame_differences(timeline: Timeline, repeated: dict[str, NDArray]) -> Iterator[Difference]:
