@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -120,7 +120,10 @@ def draw_leaf_check(suite: Mapping[str, Any], number: int) -> Figure:
         figure.subplots(n_down, n_across, squeeze=False).ravel(), panels, strict=True
     ):
         draw(ax, suite)
-    _head(figure, suite, f"Check {number}: {title}", n_columns=0 if number in _NAMED else 2)
+    n_columns = 0 if number in _NAMED else 2
+    # densities are those of growing leaves alone
+    leaves = suite["curves"]["densities"] if number == 15 else None
+    _head(figure, suite, f"Check {number}: {title}", n_columns, leaves)
     return figure
 
 
@@ -187,13 +190,20 @@ def save_leaf_checks(suite: Mapping[str, Any], output: str | Path) -> list[Path]
     return paths
 
 
-def _head(figure: FigureBase, suite: Mapping[str, Any], title: str, n_columns: int) -> None:
+def _head(
+    figure: FigureBase,
+    suite: Mapping[str, Any],
+    title: str,
+    n_columns: int,
+    leaves: Container[str] | None = None,
+) -> None:
     """Write the title, and which color is which leaf, in so many columns; 0 for no key."""
     from matplotlib.lines import Line2D
 
     handles = [
         Line2D([], [], color=color, marker=marker, markersize=5.0, linewidth=1.3, label=name)
         for name, (color, marker) in looks(suite).items()
+        if leaves is None or name in leaves
     ]
     figure.suptitle(title, fontsize=TEXT_SIZE + 2.0, color=INK)
     if n_columns == 0:

@@ -196,7 +196,7 @@ def draw_densities(ax: Axes, suite: Suite) -> None:
             ax.plot(areas, values, line, color=color, marker=marker, markersize=3.5, linewidth=1.2)
     guide = [0.5, 1.0]
     ax.plot(guide, [area**-0.5 for area in guide], color=INK, linewidth=2.5, alpha=0.35)
-    ax.axhspan(0.8, 1.2, xmin=0.75, color=RANGE, linewidth=0.0, zorder=0.0)
+    ax.fill_between(guide, 0.8, 1.2, color=RANGE, linewidth=0.0, zorder=0.0)
     ax.set(xscale="log", yscale="log", ylim=(0.15, 2.5))
     ax.set_xticks([1 / 16, 1 / 8, 1 / 4, 1 / 2, 1], ["1/16", "1/8", "1/4", "1/2", "1"])
     ax.set_yticks([0.2, 0.5, 1.0, 2.0], ["0.2", "0.5", "1", "2"])
