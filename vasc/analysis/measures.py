@@ -63,12 +63,14 @@ class Measured:
     def areole_numbers(self) -> Numbers:
         """Give the numbers of the areoles; nan without any."""
         areoles = self.areoles
+        elongations = areoles.elongations
         return {
             "areoles": areoles.n_areoles,
             "areole_area_mean": areoles.mean_area,
             "areole_area_cv": areoles.area_variation,
             "areole_circularity_median": median(areoles.circularities),
-            "areole_elongation_median": median(areoles.elongations),
+            # an areole between two veins that run along each other has no shape
+            "areole_elongation_median": median(elongations[np.isfinite(elongations)]),
             "areole_corners_mean": mean(areoles.corners),
             "areole_corners_variance": float(areoles.corners.var())
             if areoles.n_areoles

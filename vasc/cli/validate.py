@@ -14,10 +14,11 @@ EXAMPLES = (
     "vasc validate growth",
     "vasc validate transitions -o transitions.png",
     "vasc validate canalization --n 200 -o canals.json",
+    "vasc validate leaf -o leaves.png",
     "vasc validate --json",
 )
 
-SUITES = ("growth", "stem", "transitions", "canalization")
+SUITES = ("growth", "stem", "transitions", "canalization", "leaf")
 
 
 def validate(
@@ -31,7 +32,8 @@ def validate(
             "--output",
             "-o",
             metavar="FILE",
-            help="Draw the transitions: png, svg, pdf; or write what canalization found: json.",
+            help="Draw the transitions or the leaves: png, svg, pdf, leaves into a folder also; or"
+            " write what canalization found: json.",
         ),
     ] = None,
     n: Annotated[
@@ -54,8 +56,11 @@ def validate(
     thresholds.
     canalization: whether canals reach the vein nodes that the open and the closed rule of
     geometry predict, by which model, and where not.
+    leaf: statistics of the veins of simulated leaves, against those of real ones. A folder as
+    --output gets a picture for each check.
     """
     from vasc.cli.canals import print_canalization
+    from vasc.cli.leaves import print_leaves
     from vasc.cli.printing import print_json
     from vasc.errors import ConfigError
 
@@ -72,8 +77,9 @@ def validate(
     if as_json:
         print_json({"suites": suites, "pass": passed})
     else:
+        printed = PRINTED | {"canalization": print_canalization, "leaf": print_leaves}
         for one in suites:
-            (print_canalization if one["name"] == "canalization" else PRINTED[one["name"]])(one)
+            printed[one["name"]](one)
     if not passed:
         raise typer.Exit(1)
 
@@ -90,23 +96,29 @@ def _check_output(output: Path, suite: str | None, *, force: bool) -> None:
         if not output.parent.is_dir():
             raise ConfigError(f"--output {output}: there is no folder {output.parent}")
         return
-    if suite not in (None, "transitions"):
+    if suite not in (None, "transitions", "leaf"):
         raise ConfigError(
-            f"--output {output}: the suite transitions is drawn, the tables of canalization written"
+            f"--output {output}: the suites transitions and leaf are drawn, the tables of"
+            " canalization written"
         )
+    if suite == "leaf" and output.is_dir():
+        return
     check_picture(output, force=force)
 
 
 def _write(output: Path, suites: list[dict[str, Any]]) -> None:
-    """Write the tables of canalization, or draw the transitions."""
+    """Write the tables of canalization, or draw the transitions or the leaves."""
     found = {one["name"]: one for one in suites}
     if output.suffix == ".json":
         import json
 
         output.write_text(json.dumps(found["canalization"], indent=2, allow_nan=False) + "\n")
         return
-    from vasc.render import draw_transitions, save
+    from vasc.render import draw_transitions, save, save_leaf_checks
 
+    if "transitions" not in found:
+        save_leaf_checks(found["leaf"], output)
+        return
     save(
         draw_transitions(found["transitions"]["stems"], found["transitions"]["thresholds"]), output
     )
@@ -118,6 +130,7 @@ def _suites(n: int | None) -> dict[str, Callable[[], dict[str, Any]]]:
     from vasc.validation.growth_variants import validate_growth
     from vasc.validation.stem_suite import validate_stem
     from vasc.validation.stem_transitions import validate_transitions
+    from vasc.validation.vein_statistics import leaf_suite
 
     def progress(name: str) -> None:
         typer.echo(f"running: {name}", err=True)
@@ -128,6 +141,7 @@ def _suites(n: int | None) -> dict[str, Callable[[], dict[str, Any]]]:
         validate_stem,
         validate_transitions,
         canals,
+        leaf_suite,
     )
     return {name: partial(run, progress) for name, run in zip(SUITES, found, strict=True)}
 

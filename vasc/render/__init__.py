@@ -6,6 +6,7 @@ from vasc.render.files import render
 from vasc.render.genealogy import draw_genealogy
 from vasc.render.growth import GrownGrid, GrowthMap, draw_growth
 from vasc.render.leaf import View, draw_leaf
+from vasc.render.leaf_checks import draw_leaf_check, draw_leaf_checks, save_leaf_checks
 from vasc.render.saving import PICTURE_SUFFIXES, save
 from vasc.render.sequence import draw_sequence
 from vasc.render.stems import StemStyle, draw_stem
@@ -34,6 +35,8 @@ __all__ = [
     "draw_genealogy",
     "draw_growth",
     "draw_leaf",
+    "draw_leaf_check",
+    "draw_leaf_checks",
     "draw_sequence",
     "draw_stem",
     "draw_tissue",
@@ -41,5 +44,6 @@ __all__ = [
     "draw_unrolled",
     "render",
     "save",
+    "save_leaf_checks",
     "scale_of",
 ]
