@@ -125,7 +125,7 @@ SUBJECTS = [
         "canals",
         CANALS.format(batch=16, kind="polar"),
         batch=16,
-        seconds=0.6,
+        seconds=0.2,
     ),
 ]
 """Runs that compute nothing, and one of a real model."""
