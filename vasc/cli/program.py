@@ -19,6 +19,7 @@ from vasc.cli import (
     schema,
     show,
     stats,
+    sweep,
     validate,
     verify,
 )
@@ -38,6 +39,7 @@ VERBS = (
     animate,
     export,
     verify,
+    sweep,
     validate,
     schema,
 )
