@@ -166,9 +166,10 @@ def _print_plan(loaded: "Sweep", n_there: int, found: "Estimate") -> None:
     if found.error:
         typer.echo(f"\nthe first run fails: {found.error}")
         return
+    typer.echo()
     print_pairs(
         {
-            "\nthe first run": f"{duration(found.run_seconds)}, {file_size(found.run_bytes)}",
+            "the first run": f"{duration(found.run_seconds)}, {file_size(found.run_bytes)}",
             "all that is missing": f"about {duration(found.seconds)} with {found.n_workers}"
             f" workers, {file_size(found.bytes)}, if all are like the first",
         }

@@ -41,7 +41,7 @@ class Point:
 
 
 def draw_curves(folder: SweepFolder) -> "Figure | None":
-    """Draw every measure that is a number over the first axis, a curve for each value of the second.
+    """Draw every measure that is a number over the first axis, a curve a value of the second.
 
     A point is the mean over all runs with its values: replicates, and further axes and
     draws. Bars hold the mean with a confidence of 95 %, after Student.
@@ -76,6 +76,8 @@ def draw_curves(folder: SweepFolder) -> "Figure | None":
         values = {number: _number(result, name) for number, result in results.items()}
         _draw_panel(panel, sweep, runs, values, keys)
         panel.set_ylabel(name, size=TEXT_SIZE)
+    if len(sweep["axes"]) > 1:
+        _explain(panels[0], keys[1])
     for panel in panels[len(measures) :]:
         panel.set_axis_off()
     if title:
@@ -132,9 +134,8 @@ def _draw_panel(
         if is_drawn:
             panel.plot(x, y, "o", color=color, markersize=3.0)
             continue
-        panel.plot(*zip(*pairs, strict=True), ".", color=PALE, markersize=2.0, zorder=0) if (
-            pairs
-        ) else None
+        single = ([x for x, _ in pairs], [y for _, y in pairs])
+        panel.plot(*single, ".", color=PALE, markersize=2.0, zorder=0)
         panel.errorbar(
             x,
             y,
@@ -146,13 +147,11 @@ def _draw_panel(
             capsize=2.0,
             label=group,
         )
-    _finish(panel, first, second, labels, _scale(sweep, first))
+    _finish(panel, first, labels, _scale(sweep, first))
 
 
-def _finish(
-    panel: "Axes", first: str, second: str | None, labels: dict[float, str], scale: str
-) -> None:
-    """Write what the axes and colours are."""
+def _finish(panel: "Axes", first: str, labels: dict[float, str], scale: str) -> None:
+    """Write what the axis is."""
     panel.set_xlabel(first, size=TEXT_SIZE)
     panel.tick_params(labelsize=TEXT_SIZE)
     for side in ("top", "right"):
@@ -161,10 +160,12 @@ def _finish(
         panel.set_xticks(list(labels), list(labels.values()))
     elif scale == "log":
         panel.set_xscale("log")
-    if second is not None:
-        panel.legend(
-            title=second, fontsize=TEXT_SIZE - 1.0, title_fontsize=TEXT_SIZE - 1.0, frameon=False
-        )
+
+
+def _explain(panel: "Axes", key: str) -> None:
+    """Write what the colours are."""
+    size = TEXT_SIZE - 1.0
+    panel.legend(title=key, fontsize=size, title_fontsize=size, frameon=False)
 
 
 def _places(values: list[Any]) -> tuple[dict[str, float], dict[float, str]]:

@@ -145,7 +145,7 @@ def run_sweep(
     RunError
         If there is nobody left who could work.
     """
-    folder = SweepFolder(Path(output).resolve())
+    folder = SweepFolder(Path(output))
     folder.begin(sweep.description())
     with folder.locked():
         progress, missing = begun(sweep, folder, retry=retry)

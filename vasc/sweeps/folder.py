@@ -1,4 +1,4 @@
-"""The folder of a sweep: what it is of, its timelines and results; every file is whole or absent."""
+"""The folder of a sweep: what it is, its timelines and results; each file is whole or absent."""
 
 import contextlib
 import json

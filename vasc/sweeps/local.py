@@ -24,9 +24,10 @@ ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "NUMBA_NU
 
 def n_processors() -> int:
     """Give the number of processors that this process may use."""
-    if sys.platform == "linux":
+    try:
         return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
+    except AttributeError:
+        return os.cpu_count() or 1  # a system that keeps no such account
 
 
 class LocalWorkers(Workforce):
@@ -136,7 +137,13 @@ class WorkerProcess:
     def __init__(self, folder: SweepFolder) -> None:
         self._said = tempfile.TemporaryFile()  # noqa: SIM115
         self._process = subprocess.Popen(
-            [sys.executable, "-m", "vasc.sweeps.worker", str(os.getpid()), str(folder.path)],
+            [
+                sys.executable,
+                "-m",
+                "vasc.sweeps.worker",
+                str(os.getpid()),
+                str(folder.path.resolve()),
+            ],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=self._said,
@@ -154,7 +161,8 @@ class WorkerProcess:
 
     def make(self, number: int) -> Result | None:
         """Let a run be made; None if the worker is lost meanwhile."""
-        assert self._process.stdin is not None and self._process.stdout is not None
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
         try:
             self._process.stdin.write(f"{number}\n")
             self._process.stdin.flush()

@@ -170,7 +170,7 @@ _GROUPS: dict[str, Callable[["Timeline"], Mapping[str, Any]]] = {
 
 
 def _plain(value: Any) -> Any:
-    """Give a value that JSON holds: no nan; a list of other than numbers and texts as its length."""
+    """Give a value that JSON holds: no nan, and a list of other things as its length."""
     if isinstance(value, float):
         return value if np.isfinite(value) else None
     if isinstance(value, list | tuple):

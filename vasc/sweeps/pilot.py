@@ -6,9 +6,12 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from vasc.sweeps.folder import SweepFolder
-from vasc.sweeps.local import LocalWorkers
+from vasc.sweeps.local import WorkerProcess
 from vasc.sweeps.reading import Sweep
-from vasc.sweeps.work import Result
+from vasc.sweeps.work import Result, result_of
+
+SECONDS_OF_SHORT_RUN = 30.0
+"""Of a run that takes this long, what a worker does at its start is a small part."""
 
 
 @dataclass(frozen=True)
@@ -17,8 +20,10 @@ class Estimate:
 
     Parameters
     ----------
+    start_seconds : float
+        Of the first run in a new worker, which loads and may compile what all need.
     run_seconds : float
-        Of the first run, measures included.
+        Of the first run, measures included, in a worker that has done one before.
     run_bytes : int
         Of its timeline.
     n_runs : int
@@ -29,6 +34,7 @@ class Estimate:
         What went wrong with the first run; empty if nothing did.
     """
 
+    start_seconds: float
     run_seconds: float
     run_bytes: int
     n_runs: int
@@ -38,7 +44,8 @@ class Estimate:
     @property
     def seconds(self) -> float:
         """How long all missing runs take: workers begin together."""
-        return -(-self.n_runs // max(self.n_workers, 1)) * self.run_seconds
+        rounds = -(-self.n_runs // max(self.n_workers, 1))
+        return self.start_seconds + (rounds - 1) * self.run_seconds if rounds else 0.0
 
     @property
     def bytes(self) -> int:
@@ -48,6 +55,7 @@ class Estimate:
     def as_json(self) -> dict[str, Any]:
         """Give the estimate as JSON values."""
         return {
+            "start_seconds": self.start_seconds,
             "run_seconds": self.run_seconds,
             "run_bytes": self.run_bytes,
             "runs": self.n_runs,
@@ -73,16 +81,30 @@ def estimate(sweep: Sweep, n_runs: int, n_workers: int) -> Estimate:
     with TemporaryDirectory(prefix="vasc-") as name:
         folder = SweepFolder(Path(name) / "pilot")
         folder.begin(sweep.description())
-        result = _made(folder)
-    seconds, size = result.get("seconds", 0.0), result.get("bytes", 0)
-    return Estimate(seconds, size, n_runs, n_workers, result["error"])
+        first, again = _made_twice(folder)
+    return Estimate(
+        start_seconds=first.get("seconds", 0.0),
+        run_seconds=again.get("seconds", 0.0),
+        run_bytes=first.get("bytes", 0),
+        n_runs=n_runs,
+        n_workers=n_workers,
+        error=first["error"],
+    )
 
 
-def _made(folder: SweepFolder) -> Result:
-    """Make the first run in a worker, as all runs will be."""
-    result = None
-    with LocalWorkers(1) as workers:
-        workers.start(folder, [1])
-        while result is None:
-            result = workers.next_result(1.0)
-    return result
+def _made_twice(folder: SweepFolder) -> tuple[Result, Result]:
+    """Make the first run in a worker, as all runs will be, and a short one once more there."""
+    process = WorkerProcess(folder)
+    try:
+        first = again = process.make(1)
+        if first is not None and not first["error"] and first["seconds"] < SECONDS_OF_SHORT_RUN:
+            folder.timeline(1).unlink()
+            folder.result_file(1).unlink()
+            again = process.make(1)
+    except BaseException:
+        process.kill()
+        raise
+    finally:
+        said = process.end()
+    lost = result_of(1, {}, [f"its worker {said}"])
+    return first or lost, again or lost

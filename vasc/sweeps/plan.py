@@ -108,7 +108,7 @@ def plan(parameters: SweepParameters) -> list[PlannedRun]:
     list of PlannedRun
         Replicates of one choice stand together; their seeds differ, as all seeds do.
     """
-    runs = []
+    runs: list[PlannedRun] = []
     for draw, values in choices(parameters):
         for replicate in range(1, parameters.replicates + 1):
             number = len(runs) + 1

@@ -142,7 +142,8 @@ def _key_problems(tables: dict[str, Any]) -> list[str]:
     """Describe measures that do not exist, and keys that are not for a sweep to vary."""
     lines = []
     measures = tables.get("measures")
-    for row, name in enumerate(measures if isinstance(measures, list) else ()):
+    measures = measures if isinstance(measures, list) else []
+    for row, name in enumerate(measures):
         if isinstance(name, str) and (problem := name_problem(name)):
             lines.append(f"{assignment(('measures', row), name)}: {problem}")
         elif isinstance(name, str) and name in measures[:row]:
@@ -184,7 +185,8 @@ def _base_of(path: Path, base: str, label: str) -> tuple[Path, bool]:
     try:
         found = beside if beside.is_file() else find_config(base)
     except (ConfigError, OSError, ValueError) as error:
-        raise ConfigError(f"{label}: {assignment(('base',), base)}: {error}") from error
+        reason = str(error).removeprefix(f"{base}: ")
+        raise ConfigError(f"{label}: {assignment(('base',), base)}: {reason}") from error
     return found, found.parent.resolve() == bundled_folder().resolve()
 
 

@@ -24,8 +24,8 @@ def write_table(folder: SweepFolder) -> Path:
     Returns
     -------
     Path
-        The table. Its columns are ``run``, the varied keys, ``draw`` if keys are drawn, ``replicate``,
-        ``seed``, ``status`` (done, failed or missing), ``error``, and the measures.
+        The table. Its columns are ``run``, the varied keys, ``draw`` if keys are drawn,
+        ``replicate``, ``seed``, ``status`` (done, failed or missing), ``error``, and the measures.
         What a run does not have is empty.
 
     Raises
