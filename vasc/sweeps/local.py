@@ -135,15 +135,10 @@ class WorkerProcess:
     """
 
     def __init__(self, folder: SweepFolder) -> None:
+        path = str(folder.path.resolve())
         self._said = tempfile.TemporaryFile()  # noqa: SIM115
         self._process = subprocess.Popen(
-            [
-                sys.executable,
-                "-m",
-                "vasc.sweeps.worker",
-                str(os.getpid()),
-                str(folder.path.resolve()),
-            ],
+            [sys.executable, "-m", "vasc.sweeps.worker", str(os.getpid()), path],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=self._said,

@@ -37,8 +37,10 @@ class Span(Parameters):
             value = self.low * (self.high / self.low) ** share
         else:
             value = self.low + share * (self.high - self.low)
-        # few digits, so that no rounding of a power shows
-        return round(value) if self.whole else float(f"{value:.12g}")
+        if self.whole:
+            return round(value)
+        # twelve digits, so that no rounding of a power shows; the ends are as given
+        return value if share in (0.0, 1.0) else float(f"{value:.12g}")
 
 
 class Range(Span):
