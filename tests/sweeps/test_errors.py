@@ -36,7 +36,7 @@ def failed(tmp_path, monkeypatch, capsys):
 def test_a_run_that_fails_is_a_row_with_its_error(failed):
     found = rows("out")
     assert [row["status"] for row in found] == ["failed"] * 4
-    assert "final_length = 50.0" in found[2]["error"]
+    assert found[2]["error"].startswith("leaf: growth.final_length is 50; ")
     assert found[2]["summary.nodes"] == ""
     assert failed.out.splitlines()[0] == "4 runs: 0 done, 4 failed"
     lines = failed.err.splitlines()

@@ -5,6 +5,7 @@ import os
 import pty
 import shutil
 import signal
+from functools import partial
 
 import pytest
 from sweeps.sweep_files import LONG, children, is_under_way, sessions, start, wait_until, write
@@ -87,7 +88,7 @@ def test_a_sweep_that_is_killed_goes_on(tmp_path, long):
     write(tmp_path, LONG)
     for number in (1, 2, 3):
         sweep = start(tmp_path, *arguments)
-        wait_until(lambda n=number: is_under_way(tmp_path / "out", n) or sweep.poll() is not None)
+        wait_until(partial(is_under_way, tmp_path / "out", number))
         sweep.kill()
         sweep.communicate(timeout=60)
     sweep = start(tmp_path, *arguments)

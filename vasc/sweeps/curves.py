@@ -44,7 +44,8 @@ def draw_curves(folder: SweepFolder) -> "Figure | None":
     """Draw every measure that is a number over the first axis, a curve a value of the second.
 
     A point is the mean over all runs with its values: replicates, and further axes and
-    draws. Bars hold the mean with a confidence of 95 %, after Student.
+    draws. Bars hold the mean with a confidence of 95 %, after Student. A flag is drawn as 0
+    or 1, and a list of numbers, as a pair of connected primordia, as its last one.
 
     Parameters
     ----------
@@ -194,8 +195,10 @@ def _numbers(results: Any, name: str) -> list[float]:
 
 
 def _number(result: dict[str, Any], name: str) -> float | None:
-    """Give a measure as a number, a flag as 0 or 1; None if it is none."""
+    """Give a measure as a number: a flag as 0 or 1, of a list its last; None if it is none."""
     value = result.get("measures", {}).get(name)
+    if isinstance(value, list) and value:
+        value = value[-1]
     return float(value) if isinstance(value, bool | int | float) else None
 
 

@@ -22,6 +22,15 @@ ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "NUMBA_NU
 """Environment of a worker: there is one a processor, and each has work enough."""
 
 
+START = """
+import json, sys
+sys.path[:] = json.loads(sys.argv[1])
+from vasc.sweeps.worker import main
+main(int(sys.argv[2]), sys.argv[3])
+"""
+"""How a worker begins: with the packages, vasc among them, that its parent has."""
+
+
 def n_processors() -> int:
     """Give the number of processors that this process may use."""
     try:
@@ -138,7 +147,7 @@ class WorkerProcess:
         path = str(folder.path.resolve())
         self._said = tempfile.TemporaryFile()  # noqa: SIM115
         self._process = subprocess.Popen(
-            [sys.executable, "-m", "vasc.sweeps.worker", str(os.getpid()), path],
+            [sys.executable, "-c", START, json.dumps(sys.path), str(os.getpid()), path],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=self._said,

@@ -97,7 +97,7 @@ def _experiment_of(description: dict[str, Any], run: PlannedRun) -> Experiment:
         description["base"],
         name=description["base_name"],
         folder=bundled_folder() if folder is None else Path(folder),
-        label=f"run {run.number}",
+        label=description["base_name"],
         overrides=[*as_overrides(description["sweep"]["set"]), *run.overrides],
     )
 

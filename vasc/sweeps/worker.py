@@ -1,7 +1,7 @@
 """A worker process: takes numbers of runs from its input, gives results to its output.
 
-``python -m vasc.sweeps.worker PARENT FOLDER`` is started by :mod:`vasc.sweeps.local`. It
-ends when its input ends, and stops its run when its parent is gone.
+It is started by :mod:`vasc.sweeps.local`, ends when its input ends, and stops its run
+when its parent is gone.
 """
 
 import json
@@ -42,7 +42,3 @@ def main(parent: int, folder: str) -> None:
             results.flush()
         except BrokenPipeError:
             os._exit(0)  # nobody is there to read it; the file of the result is
-
-
-if __name__ == "__main__":
-    main(int(sys.argv[1]), sys.argv[2])
