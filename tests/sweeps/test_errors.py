@@ -2,6 +2,7 @@
 
 import csv
 import json
+import shutil
 from pathlib import Path
 
 import pytest
@@ -64,12 +65,12 @@ def test_failed_runs_are_made_again_when_asked_for(failed, capsys):
     ("old", "new", "part"),
     [
         ("= [1.0, 3.0]", "= [1.0, 2.0]", "arrival.kill_distance"),
-        ("replicates = 2", "replicates = 3", "sweep.replicates is 2 there, 3 here"),
-        ('"stats.vein_density", ', "", "sweep.measures"),
+        ("replicates = 2", "replicates = 3", "small: replicates is 2 there, 3 here"),
+        ('"stats.vein_density", ', "", "small: measures is ["),
     ],
 )
-def test_the_folder_of_another_sweep_is_refused_by_name(old, new, part, here, capsys):
-    assert main(["sweep", "small.toml", "-o", "out", "--workers=1", "-q"]) == 0
+def test_the_folder_of_another_sweep_is_refused_by_name(old, new, part, here, short, capsys):
+    shutil.copytree(short, "out")
     before = (here / "out" / "sweep.json").read_bytes()
     write(here, (here / "small.toml").read_text().replace(old, new), "other.toml")
     for words in ([], ["--plan"]):
@@ -80,11 +81,14 @@ def test_the_folder_of_another_sweep_is_refused_by_name(old, new, part, here, ca
     assert (here / "out" / "sweep.json").read_bytes() == before
 
 
-def test_another_base_is_another_sweep(here, capsys):
-    assert main(["sweep", "small.toml", "-o", "out", "--workers=1", "-q"]) == 0
+def test_another_base_is_another_sweep(here, short, capsys):
+    shutil.copytree(short, "out")
     (here / "leaf.toml").write_text(LEAF.replace("length = 20.0", "length = 21.0"))
     assert main(["sweep", "small.toml", "-o", "out"]) == 2
-    assert "out: belongs to another sweep, small: base is" in capsys.readouterr().err
+    assert (
+        "out: belongs to another sweep, small: its base leaf was another then"
+        in capsys.readouterr().err
+    )
 
 
 @pytest.mark.parametrize(

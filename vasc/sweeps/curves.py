@@ -72,7 +72,7 @@ def draw_curves(folder: SweepFolder) -> "Figure | None":
         figsize=(PANEL[0] * columns, PANEL[1] * rows + (0.3 if title else 0.0)),
         layout="constrained",
     )
-    panels = figure.subplots(rows, columns, squeeze=False).ravel()
+    panels = figure.subplots(rows, columns, squeeze=False, sharex=True).ravel()
     for panel, name in zip(panels, measures, strict=False):
         values = {number: _number(result, name) for number, result in results.items()}
         _draw_panel(panel, sweep, runs, values, keys)
@@ -154,7 +154,7 @@ def _draw_panel(
 def _finish(panel: "Axes", first: str, labels: dict[float, str], scale: str) -> None:
     """Write what the axis is."""
     panel.set_xlabel(first, size=TEXT_SIZE)
-    panel.tick_params(labelsize=TEXT_SIZE)
+    panel.tick_params(labelsize=TEXT_SIZE, labelbottom=True)
     for side in ("top", "right"):
         panel.spines[side].set_visible(False)
     if labels:

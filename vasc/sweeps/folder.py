@@ -143,11 +143,14 @@ class SweepFolder:
         old = self.description()
         if (key := _first_difference(old, description)) is None:
             return
-        values = [_at(one, key) for one in (old, description)]
-        there, here = (written(value) for value in values)
-        what = f": {dotted(key)} is {there} there, {here} here" if there != here else ""
+        there, here = (written(_at(one, key)) for one in (old, description))
+        what = f"{dotted(key[1:])} is {there} there, {here} here"
+        if key == ("runs",):
+            what = "its runs are others"
+        elif len(key) == 1:
+            what = f"its base {old.get('base_name')} was another then"
         raise OutputError(
-            f"{self.path}: belongs to another sweep, {old.get('name')}{what}; choose a new folder"
+            f"{self.path}: belongs to another sweep, {old.get('name')}: {what}; choose a new folder"
         )
 
 
