@@ -60,9 +60,11 @@ class ClusterWorkers(Workforce):
 
     def stop(self) -> None:
         """Withdraw the runs that have not begun; those under way come to their end there."""
-        with suppress(Exception):
-            self._client.cancel(list(self._left.values()))
+        withdrawn = list(self._left.values())
+        # first of all, so that none of them is taken for lost
         self._left.clear()
+        with suppress(Exception):
+            self._client.cancel(withdrawn)
 
     def close(self) -> None:
         """Leave the cluster, which goes on."""
@@ -73,8 +75,7 @@ class ClusterWorkers(Workforce):
     @property
     def n_running(self) -> int:
         """Runs that are being made now: as many as the cluster has threads, or are left."""
-        workers = self._client.scheduler_info(n_workers=-1).get("workers", {})
-        return min(len(self._left), sum(one["nthreads"] for one in workers.values()))
+        return min(len(self._left), sum(self._client.nthreads().values()))
 
     def _report(self, folder: SweepFolder, number: int, future: Any) -> None:
         """Put aside what came of a run."""

@@ -59,7 +59,8 @@ def perform(folder: str, number: int, should_stop: Callable[[], bool] = never) -
         If the result cannot be written.
     """
     place = SweepFolder(Path(folder))
-    description, run = place.description(), place.planned()[number - 1]
+    description = place.description()
+    run = PlannedRun(**description["runs"][number - 1])
     began = time.perf_counter()
     try:
         experiment = _experiment_of(description, run)
