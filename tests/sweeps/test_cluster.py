@@ -6,7 +6,7 @@ import time
 from contextlib import contextmanager
 
 import pytest
-from sweeps.sweep_files import LONG, ROOT, is_under_way, write
+from sweeps.sweep_files import LONG, ROOT, is_under_way, sessions, start, wait_until, write
 
 from vasc.cli import main
 from vasc.errors import ConfigError
@@ -104,6 +104,26 @@ def test_the_command_runs_on_a_cluster(here, short, monkeypatch):
         words = ["sweep", "small.toml", "-o", "out", "--scheduler", made.scheduler_address, "-q"]
         assert main(words) == 0
     assert (here / "out" / "results.csv").read_bytes() == (short / "results.csv").read_bytes()
+
+
+@pytest.mark.slow
+def test_a_sweep_that_is_stopped_on_a_cluster_goes_on_without_one(tmp_path, long, monkeypatch):
+    write(tmp_path, LONG)
+    words = ["sweep", "small.toml", "-o", "out"]
+    with cluster(1, monkeypatch) as made:
+        sweep = start(tmp_path, *words, "--scheduler", made.scheduler_address)
+        wait_until(lambda: is_under_way(tmp_path / "out", 1))
+        sweep.send_signal(signal.SIGINT)
+        _, errors = sweep.communicate(timeout=60)
+        assert sweep.returncode == 130
+        assert "the same command goes on" in errors
+        assert "Traceback" not in errors
+        # the run under way comes to its end there, and nobody else writes to it meanwhile
+        again = start(tmp_path, *words, "--workers", "2")
+        _, errors = again.communicate(timeout=120)
+        assert (again.returncode, errors) == (0, "")
+    assert sessions(tmp_path / "out" / "runs" / "0001.h5") == ["complete"]
+    assert (tmp_path / "out/results.csv").read_bytes() == (long / "results.csv").read_bytes()
 
 
 def test_a_scheduler_that_is_not_there_is_told_in_one_line(here, monkeypatch, capsys):
