@@ -48,7 +48,7 @@ title = "Leaves that take a while"
 measures = ["summary.nodes", "summary.steps", "stats.vein_length"]
 
 [set]
-growth.final_length = 260.0
+growth.final_length = 400.0
 placement.density = 2e-3
 
 [axes]

@@ -70,15 +70,15 @@ def test_only_what_is_missing_is_made(here, short, capsys):
 def test_a_worker_that_is_killed_loses_its_own_run_alone(tmp_path, long):
     sweep = start(write(tmp_path, LONG).parent, "sweep", "small.toml", "-o", "out", "--workers=2")
     wait_until(lambda: is_under_way(tmp_path / "out", 1))
-    for number in (children(sweep.pid)[0],):
-        os.kill(number, signal.SIGKILL)
+    os.kill(children(sweep.pid)[0], signal.SIGKILL)
     said, errors = sweep.communicate(timeout=120)
     assert (sweep.returncode, errors) == (0, "")
     assert said.startswith("3 runs: 3 done, 0 failed\n")
     assert table(tmp_path / "out") == table(long)
     ends = [sessions(tmp_path / "out" / "runs" / f"{number:04d}.h5") for number in (1, 2, 3)]
-    # gone on with by another worker
-    assert ends.count(["killed", "complete"]) <= 1
+    # its run was gone on with by another worker, unless it was just between two runs
+    assert sorted(map(len, ends)) in ([1, 1, 2], [1, 1, 1])
+    assert [end[-1] for end in ends] == ["complete"] * 3
     assert [path for path in (tmp_path / "out" / "runs").glob("*.h5") if validate(path)] == []
 
 
@@ -106,7 +106,7 @@ def test_a_killed_sweep_leaves_no_worker(tmp_path):
     sweep.kill()
     sweep.communicate(timeout=60)
     wait_until(lambda: not any(os.path.exists(f"/proc/{worker}") for worker in workers), 30.0)
-    assert not (tmp_path / "out" / "runs" / "0001.json").exists()
+    assert len(list((tmp_path / "out" / "runs").glob("*.json"))) < 3
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
@@ -122,7 +122,9 @@ def test_a_signal_stops_the_workers_with_a_sentence(number, code, tmp_path, long
     assert "Traceback" not in errors
     assert errors.splitlines()[-1].startswith("interrupted: out holds the results of ")
     assert not any(os.path.exists(f"/proc/{worker}") for worker in workers)
-    assert sessions(tmp_path / "out" / "runs" / "0001.h5") == ["interrupted"]
+    ends = [sessions(path) for path in (tmp_path / "out" / "runs").glob("*.h5")]
+    assert ["interrupted"] in ends
+    assert [end for end in ends if end not in (["interrupted"], ["complete"])] == []
     assert b",missing," in table(tmp_path / "out")
     _, errors = start(tmp_path, *arguments).communicate(timeout=120)
     assert errors == ""
