@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from vasc.analysis.topology import count_components, count_cycles, free_ends
-from vasc.config import load
+from vasc.config import load, parse_override
 from vasc.config.bundled import bundled_configs
-from vasc.experiment import run
+from vasc.experiment import run, verify
 from vasc.network import Origin
+from vasc.simulation import simulate
 from vasc.streams import Streams
 from vasc.timeline import Timeline
 from vasc.timeline.validation import validate
@@ -17,7 +18,10 @@ from vasc.validation.stem_references import STEM_PATTERNS
 
 NAMES = [config.name for config in bundled_configs()]
 STEMS = [name for name in NAMES if load(name).kind == "stem"]
-LEAVES = [name for name in NAMES if name not in STEMS]
+CANALS = [name for name in NAMES if load(name).kind == "canalization"]
+LEAVES = [name for name in NAMES if load(name).kind in ("open", "closed", "areole")]
+OTHERS = [name for name in NAMES if name not in STEMS + LEAVES]
+"""Tissues of cells, and a leaf without any growth of veins."""
 FLAX = "stem-lucas-7-11"
 """The largest stem."""
 FREE = {f"param-kill-distance-{letter}" for letter in "abc"}
@@ -35,7 +39,9 @@ def test_the_model_builds(name):
     parameters = experiment.parameters
     if name in LEAVES:
         assert parameters.arrival.kill_distance >= parameters.extension.segment_length
-    state = parameters.model(experiment.folder).initial_state(Streams(parameters.seed))
+    state = parameters.model(experiment.folder).initial_state(
+        Streams(parameters.seed, parameters.stream_names)
+    )
     assert state.step == 0
 
 
@@ -84,6 +90,32 @@ def test_the_whole_stem_ends_as_it_should(name, tmp_path):
     assert report.passed
 
 
+@pytest.mark.parametrize("name", CANALS)
+def test_canals_of_all_sources_become_veins(name, tmp_path):
+    path = tmp_path / "run.h5"
+    summary = run(load(name), path)
+    assert summary.stop_reason == "at_rest"
+    assert summary.sources_left == 0
+    assert validate(path) == []
+    with Timeline(path) as timeline:
+        network = timeline.frame().network
+    n_cycles = count_cycles(network)
+    assert n_cycles == (1 if name == "areole-canals" else 0)
+    assert count_components(network) == (2 if name.startswith("mitchison") else 1)
+
+
+@pytest.mark.parametrize("kind", [["rectangular"], ["hexagonal", "rows=19"], ["voronoi"]])
+@pytest.mark.parametrize("side", ["left", "right", "polar"])
+def test_of_two_veins_the_nearer_one_is_reached_on_any_cells(side, kind):
+    overrides = [parse_override(f"domain.kind={kind[0]}")]
+    overrides += [parse_override(f"domain.{one}") for one in kind[1:]]
+    parameters = load(f"mitchison-two-sinks-{side}", overrides).parameters
+    streams = Streams(parameters.seed, parameters.stream_names)
+    *_, state = simulate(parameters.model(), streams)
+    # the first new node extends the vein that the canal leads to
+    assert state.rows("nodes", "parent")[2] == (1 if side == "right" else 0)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", LEAVES)
 def test_the_whole_run_ends_as_it_should(name, tmp_path):
@@ -109,3 +141,15 @@ def test_the_whole_run_ends_as_it_should(name, tmp_path):
     else:
         assert n_components <= n_seeds
         assert n_cycles == 0 if name in WITHOUT_LOOPS else n_cycles > 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", OTHERS)
+def test_the_whole_run_of_another_model_ends_and_repeats(name, tmp_path):
+    path = tmp_path / "run.h5"
+    experiment = load(name)
+    summary = run(experiment, path)
+    assert summary.stop_reason == ("no_sources" if experiment.kind == "gottlieb" else "at_rest")
+    assert summary.sources_left == 0
+    assert validate(path) == []
+    assert verify(path) == []

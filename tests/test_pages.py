@@ -127,6 +127,22 @@ def test_the_python_of_the_tutorial_reads_the_run(tutorial):
     assert "source 0 lived from step" in read.stdout
 
 
+def test_the_python_of_the_page_on_lineage_reads_the_run(tutorial):
+    (program,) = blocks("lineage.md", "python")
+    program = program.replace("poplar-leaf.h5", "near.h5")
+    (tutorial / "lineage.py").write_text(program + "print(len(fates), len(births), loop)\n")
+    read = subprocess.run(
+        [sys.executable, "lineage.py"],
+        cwd=tutorial,
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert read.returncode == 0, read.stderr
+    assert re.match(r"\d+ \d+ VeinLoop\(node=1000, ", read.stdout)
+
+
 def test_the_tutorial_names_what_there_is():
     text = (ROOT / "docs" / "tutorial.md").read_text() + (ROOT / "README.md").read_text()
     copied = re.findall(r"^vasc configs --copy (\S+)", text, flags=re.MULTILINE)

@@ -13,11 +13,21 @@ import pytest
 
 FOLDER = Path(__file__).resolve().parent.parent / "paper_figures"
 SCRIPTS = sorted(FOLDER.glob("*/fig_*.py"))
-FAST = ["3_2", "3_3", "3_4", "3_5", "4_10", "4_11", "4_12", "4_13"]
+FAST = ["3_2", "3_3", "3_4", "3_5", "4_9", "4_10", "4_11", "4_12", "4_13"]
 FAST += ["5_2", "5_3", "5_5", "5_6", "5_9"]
 FAST += ["6_2", "6_4", "6_6", "6_7"]
-SLOW = [path.stem.removeprefix("fig_") for path in SCRIPTS]
+SLOW = [path.stem.removeprefix("fig_") for path in SCRIPTS if path.parent.name == "runions_2008"]
 SLOW = [number for number in SLOW if number not in FAST]
+SMALL = {
+    "areoles": 7,
+    "cost": 20,
+    "hit_map": 40,
+    "hit_rates": 4,
+    "many_sources": 22,
+    "phases": 6,
+    "sequential_leaf": 20,
+}
+"""Figures of canalization, and a size at which they take a second or two."""
 
 
 def script(number):
@@ -33,6 +43,10 @@ def load(path, monkeypatch):
     return module
 
 
+def canal_script(name, monkeypatch):
+    return load(FOLDER / "canalization" / f"fig_{name}.py", monkeypatch)
+
+
 def check_picture(path):
     pixels = matplotlib.image.imread(path)[:, :, :3]
     assert 300 <= max(pixels.shape) <= 1400
@@ -44,6 +58,18 @@ def check_picture(path):
 def test_a_diagram_is_drawn(number, tmp_path, monkeypatch):
     output = tmp_path / "figure.png"
     load(script(number), monkeypatch).main(output)
+    check_picture(output)
+
+
+def test_every_figure_of_canalization_has_a_small_size():
+    names = [path.stem.removeprefix("fig_") for path in (FOLDER / "canalization").glob("fig_*.py")]
+    assert sorted(names) == sorted(SMALL)
+
+
+@pytest.mark.parametrize("name", SMALL)
+def test_a_figure_of_canalization_is_drawn(name, tmp_path, monkeypatch):
+    output = tmp_path / "figure.png"
+    canal_script(name, monkeypatch).main(output, SMALL[name])
     check_picture(output)
 
 
@@ -71,7 +97,7 @@ def test_a_script_is_run_as_the_gallery_says(tmp_path):
 
 def test_the_gallery_names_every_script_and_no_other():
     text = (FOLDER / "README.md").read_text()
-    named = re.findall(r"\((runions_2008/fig_\w+\.py)\)", text)
+    named = re.findall(r"\((\w+/fig_\w+\.py)\)", text)
     assert sorted(named) == [path.relative_to(FOLDER).as_posix() for path in SCRIPTS]
 
 
@@ -126,3 +152,59 @@ def test_growth_of_internodes_keeps_the_order_of_heights(monkeypatch):
     assert (lengths > 0.0).all()
     # the younger, the shorter
     assert (np.diff(lengths) < 0.0).all()
+
+
+@pytest.mark.parametrize("transport", ["pool", "facilitated"])
+def test_a_strand_leads_to_the_sink_that_is_nearer(transport, monkeypatch):
+    figure = load(script("4_9"), monkeypatch)
+    for source, sink in (
+        (figure.SOURCES["c"], figure.SINKS[0]),
+        (figure.SOURCES["d"], figure.SINKS[1]),
+    ):
+        network = figure.experiment(transport, source)[-1].network
+        new = network.segments[network.causes[network.segments[:, 1]] >= 0]
+        # one strand without branches, that begins in the sink and ends in the source
+        assert network.positions[new[0, 0]].tolist() == list(sink)
+        assert network.positions[new[-1, 1]].tolist() == list(source)
+        assert (new[1:, 0] == new[:-1, 1]).all()
+
+
+def test_canals_are_poor_in_auxin_by_facilitated_diffusion_and_rich_by_a_pool(monkeypatch):
+    figure = load(script("4_9"), monkeypatch)
+    means = {}
+    for transport in ("pool", "facilitated"):
+        state = figure.experiment(transport, figure.SOURCES["c"])[-1]
+        canal = state.tissue.nearest_cells(state.network.positions[state.network.causes >= 0])
+        means[transport] = state.fields.concentration[canal].mean() / np.median(
+            state.fields.concentration
+        )
+    assert means["facilitated"] < 0.5
+    assert means["pool"] > 1.5
+
+
+def test_walls_that_saturate_later_lead_to_fewer_ends(monkeypatch):
+    figure = canal_script("areoles", monkeypatch)
+    tissue = figure.tissue_in(figure.RING * 0.7, seed=2)
+    veins = [tissue.margins[0][:-1]]
+    source = int(tissue.nearest_cells([(0.0, 0.0)])[0])
+    ends = []
+    for ratio in (1, 256):
+        transport = figure.FacilitatedDiffusion(gain=figure.GAIN, saturation=figure.GAIN / ratio)
+        state = figure.settle(tissue, transport, veins, [source])
+        ends.append(figure.strand_of(state, transport, source, veins).n_landings)
+    assert ends[0] == 1
+    assert ends[1] > 1
+
+
+def test_the_spanning_tree_serves_all_sources(monkeypatch):
+    figure = canal_script("many_sources", monkeypatch)
+    edges, served = figure.spanning_tree(np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [1.0, 1.0]]))
+    found = {tuple(edge): count for edge, count in zip(edges.tolist(), served, strict=True)}
+    assert found == {(0, 1): 3.0, (1, 2): 1.0, (1, 3): 1.0}
+
+
+def test_the_phases_are_told_apart(monkeypatch):
+    figure = canal_script("phases", monkeypatch)
+    found = {at: figure.phase("facilitated", *at) for at in ((10.0, 1.0), (1e4, 1.0), (1e4, 16.0))}
+    assert list(found.values()) == ["no canal", "one file", "wide"]
+    assert figure.phase("facilitated", 10.0, 64.0) is None

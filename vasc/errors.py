@@ -23,6 +23,10 @@ class TimelineError(VascError):
     """A file is not a timeline, is damaged, or holds what this version cannot read."""
 
 
+class NetworkError(VascError):
+    """A file of a real vein network cannot be read; the message names the row."""
+
+
 class OutputError(VascError):
     """A file cannot be written: it exists, or its folder does not."""
 

@@ -44,6 +44,12 @@ class EventKind(IntEnum):
     """(source, areole): the areole in which the source has appeared"""
     MESOPHYLL_EVENT = 17
     """(-1, -1): from now on developing veins end blindly"""
+    CANALS_SETTLED = 18
+    """(-1, -1): no wall of the tissue changes any more; strands differentiate"""
+    CANALS_UNSETTLED = 19
+    """(-1, -1): the time for the canals is over, though walls still change"""
+    VORTEX_FORMED = 20
+    """(cell, -1): more auxin circulates through the cell than all sources make"""
 
 
 class StopReason(IntEnum):
@@ -57,6 +63,8 @@ class StopReason(IntEnum):
     """Veins are added again and again without coming nearer to any source."""
     STEP_LIMIT = 3
     """The config's last step was reached."""
+    AT_REST = 4
+    """All sources have been placed, and the tissue changes no more."""
 
 
 EVENT_COLUMNS = {

@@ -11,7 +11,7 @@ import numpy as np
 
 from vasc.config import Experiment, experiment_from_record
 from vasc.domain import Blade
-from vasc.errors import TimelineError
+from vasc.errors import RunError, TimelineError
 from vasc.events import EventKind, StopReason
 from vasc.models.base import Model
 from vasc.network import Origin
@@ -22,6 +22,7 @@ from vasc.timeline import Recorder, Timeline, motion_of
 from vasc.timeline.comparison import (
     FRAME_COLUMNS,
     Difference,
+    compare_fields,
     compare_places,
     form_differences,
     frame_differences,
@@ -38,6 +39,29 @@ def never() -> bool:
 
 
 @dataclass(frozen=True)
+class TissueSummary:
+    """What came of a run on a tissue, besides.
+
+    Parameters
+    ----------
+    cells, walls : int
+        Size of the tissue.
+    connected : int
+        Sources from which a canal has become a vein.
+    vortices : int
+        Rounds of sources in which more circulated than was made.
+    unsettled : int
+        Rounds that ended while walls still changed.
+    """
+
+    cells: int
+    walls: int
+    connected: int
+    vortices: int
+    unsettled: int
+
+
+@dataclass(frozen=True)
 class Summary:
     """What came of a run.
 
@@ -47,6 +71,8 @@ class Summary:
         The timeline.
     steps : int
         The last recorded step.
+    time : float
+        Model time at that step.
     nodes, segments : int
         Size of the network at that step.
     sources_placed, sources_left : int
@@ -57,6 +83,8 @@ class Summary:
         Times the stall rule chose a direction.
     nodes_outside : int or None
         Nodes that lie outside the blade, seeds left out; None for a stem, which has none.
+    tissue : TissueSummary or None
+        What only runs on a tissue have.
     wall_seconds : float
         Time this session took.
     stop_reason : str or None
@@ -67,6 +95,7 @@ class Summary:
 
     output: Path
     steps: int
+    time: float
     nodes: int
     segments: int
     sources_placed: int
@@ -75,6 +104,7 @@ class Summary:
     loops: int
     stalls_resolved: int
     nodes_outside: int | None
+    tissue: TissueSummary | None
     wall_seconds: float
     stop_reason: str | None
     is_interrupted: bool = False
@@ -114,9 +144,11 @@ def run(
     Raises
     ------
     OutputError
-        If the file cannot be written.
+        If the file cannot be written, or the disk has no room for a tissue.
     ConfigError
         If the blade or a file the config refers to cannot be used.
+    RunError
+        If the run cannot go on; the file holds the steps so far.
     """
     started = time.perf_counter()
     parameters = experiment.parameters
@@ -136,6 +168,7 @@ def run(
         motion=motion_of(state),
         dimensions=state.dimensions,
         base_ring=state.base_ring,
+        tissue=state.tissue,
         units=None if units is None else units.model_dump(mode="json"),
         force=force,
         record_perceived=parameters.record.perceived != "none",
@@ -179,6 +212,8 @@ def resume(
         If the file is no sound timeline or is being written by another run.
     ConfigError
         If this version cannot read its config.
+    RunError
+        If the run cannot go on; the file holds the steps so far.
     """
     started = time.perf_counter()
     with Timeline(path) as timeline, repeatable(timeline) as (model, streams):
@@ -231,15 +266,16 @@ def verify(path: str | Path, *, observers: Iterable[Observer] = ()) -> list[Diff
         if not timeline.n_frames:
             raise TimelineError(f"{path}: holds no step to compare")
         frames: dict[str, list[Any]] = {name: [] for name in ("counts", "streams", *FRAME_COLUMNS)}
-        places: dict[str, Difference] = {}
+        sliced: dict[str, Difference] = {}
         for state in simulate(model, streams, observers=observers, max_steps=timeline.last_step):
             frames["streams"].append(streams.state())
             for name in ("counts", *FRAME_COLUMNS):
                 frames[name].append(getattr(state, name))
-            compare_places(timeline, state, places)
+            compare_places(timeline, state, sliced)
+            compare_fields(timeline, state, sliced)
         repeated = {name: np.array(rows) for name, rows in frames.items() if rows[0] is not None}
         found = [*frame_differences(timeline, repeated), *table_differences(timeline, state)]
-        found.extend([*places.values(), *form_differences(timeline, state)])
+        found.extend([*sliced.values(), *form_differences(timeline, state)])
         if timeline.is_complete != state.is_finished:
             said = [str(flag).lower() for flag in (timeline.is_complete, state.is_finished)]
             found.append(Difference(timeline.last_step, "", "complete", -1, *said))
@@ -267,14 +303,19 @@ def _recorded(
     started: float,
     should_stop: Callable[[], bool],
 ) -> Summary:
-    """Let a run go to its end, or until it is told to stop."""
+    """Let a run go to its end, until it is told to stop, or until it cannot go on."""
     prepared = time.perf_counter()
     recorder.phases["prepare"] = prepared - started
     is_interrupted = False
-    for state in states:
-        if should_stop() and not state.is_finished:
-            is_interrupted = True
-            break
+    try:
+        for state in states:
+            if should_stop() and not state.is_finished:
+                is_interrupted = True
+                break
+    except RunError as error:
+        recorder.close(complete=False, outcome=f"failed: RunError: {error}"[:400])
+        kept = f"all steps up to {recorder.n_frames - 1} are kept"
+        raise RunError(f"{recorder.path}: {error}; {kept}") from error
     recorder.phases["simulate_and_record"] = time.perf_counter() - prepared
     recorder.close(outcome="interrupted" if is_interrupted else None)
     return _summary(recorder.path, state, started, _stop_reason(state), is_interrupted)
@@ -289,6 +330,7 @@ def _summary(
     return Summary(
         output=path,
         steps=state.step,
+        time=state.time,
         nodes=network.n_vein_nodes,
         segments=network.n_segments,
         sources_placed=kinds[EventKind.SOURCE_PLACED],
@@ -297,9 +339,23 @@ def _summary(
         loops=kinds[EventKind.LOOP_CLOSED],
         stalls_resolved=kinds[EventKind.STALL_RESOLVED],
         nodes_outside=None if state.blade is None else _count_outside(state, state.blade),
+        tissue=_tissue_summary(state, kinds),
         wall_seconds=time.perf_counter() - started,
         stop_reason=reason,
         is_interrupted=is_interrupted,
+    )
+
+
+def _tissue_summary(state: State, kinds: list[int]) -> TissueSummary | None:
+    """Sum up a state of a tissue, given the numbers of events; None without cells."""
+    if state.tissue is None:
+        return None
+    return TissueSummary(
+        cells=state.tissue.n_cells,
+        walls=state.tissue.n_walls,
+        connected=kinds[EventKind.SOURCE_REMOVED],
+        vortices=kinds[EventKind.VORTEX_FORMED],
+        unsettled=kinds[EventKind.CANALS_UNSETTLED],
     )
 
 

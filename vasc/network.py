@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from vasc.arrays import Codes, Column, Floats, Ids, Points, Steps
+from vasc.notebook import card, picture_of
 
 
 class Origin(IntEnum):
@@ -17,6 +18,8 @@ class Origin(IntEnum):
     SOURCE = 2
     REFINEMENT = 3
     PRIMORDIUM = 4
+    CANAL = 5
+    """A cell of a canal that has differentiated as a whole."""
 
 
 class SegmentKind(IntEnum):
@@ -30,7 +33,7 @@ class SegmentKind(IntEnum):
 NODE_COLUMNS = {
     "birth": Column("i4", "step of birth"),
     "parent": Column("i4", "node it extends, -1 for a seed"),
-    "origin": Column("i1", "0 seed, 1 extension, 2 source, 3 refinement, 4 primordium"),
+    "origin": Column("i1", "0 seed, 1 extension, 2 source, 3 refinement, 4 primordium, 5 canal"),
     "source": Column("i4", "source that caused it (the nearest that pulled), -1 if none"),
     "position": Column("f8", "position at birth", unit="length", shape=(2,)),
     "material": Column("f8", "material coordinates", unit="length", shape=(2,)),
@@ -79,6 +82,15 @@ class VeinNetwork:
     segment_births: Steps
     segment_kinds: Codes
     retired: Ids = field(default_factory=lambda: np.empty(0, dtype=np.int32))
+
+    def _repr_html_(self) -> str:
+        """Show a small picture in a notebook."""
+        facts = {
+            "nodes": lambda: self.n_vein_nodes,
+            "segments": lambda: self.n_segments,
+            "vein length": lambda: f"{float(self.lengths.sum()):.4g}",
+        }
+        return card("VeinNetwork", facts, lambda: picture_of(self.positions, self.segments))
 
     @property
     def n_nodes(self) -> int:

@@ -1,6 +1,6 @@
 """Parameters: frozen, typed, bounded values with unit and meaning; unknown keys refused."""
 
-from typing import Any
+from typing import Any, ClassVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -12,6 +12,11 @@ class Parameters(BaseModel):
     defaults. Values are checked once, when the object is made.
     """
 
+    evidence: ClassVar[str] = ""
+    """How far the equations behind the values were read where they were published, as a mark
+    and a sentence: [V] read there, [C] confirmed by computing, [T] as the vein thesis tells
+    them, [R] recalled, not checked. Empty where the page of the model says it."""
+
     model_config = ConfigDict(
         frozen=True,
         extra="forbid",
@@ -20,6 +25,16 @@ class Parameters(BaseModel):
         validate_default=True,
         hide_input_in_errors=False,
     )
+
+
+def evidence(parameters: Parameters) -> list[str]:
+    """Give what parameters and those within them say on the evidence of their equations."""
+    found = [parameters.evidence] if parameters.evidence else []
+    for name in type(parameters).model_fields:
+        part = getattr(parameters, name)
+        if isinstance(part, Parameters):
+            found += evidence(part)
+    return found
 
 
 def quantity(meaning: str, *, unit: str = "", default: Any = ..., **bounds: Any) -> Any:

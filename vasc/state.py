@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,9 @@ from vasc.areoles import AREOLE_COLUMNS, BOUNDARY_COLUMNS, AreoleSet, areoles_fr
 from vasc.arrays import Columns, Ids, Points, Table
 from vasc.canals import CANAL_TABLES, CanalSet, canals_from_columns
 from vasc.domain import Blade
+from vasc.domain.tissue import Tissue
 from vasc.events import EVENT_COLUMNS, EventKind
+from vasc.fields import Fields
 from vasc.network import NODE_COLUMNS, SEGMENT_COLUMNS, VeinNetwork
 from vasc.sources import PERCEIVED_COLUMNS, SOURCE_COLUMNS, SourceSet
 from vasc.states import STATE_COLUMNS, Kind, SourceState
@@ -44,6 +46,16 @@ def table_columns(dimensions: int) -> dict[str, Columns]:
     }
 
 
+class Past(Protocol):
+    """What a model on a tissue must know of earlier steps to go on from a record."""
+
+    def fields(self, step: int) -> Fields:
+        """Give the fields of a recorded step."""
+
+    def time(self, step: int) -> float:
+        """Give the time of a recorded step."""
+
+
 class Tables:
     """The append-only tables that all states of one run share.
 
@@ -53,10 +65,18 @@ class Tables:
         2 for a run in the plane (a leaf), 3 for one in space (a stem).
     tables : dict of str to Table, optional
         Tables of these dimensions by name; empty ones when not given.
+    past : Past, optional
+        Earlier steps of a tissue, where a run goes on from a record.
     """
 
-    def __init__(self, dimensions: int = 2, tables: dict[str, Table] | None = None) -> None:
+    def __init__(
+        self,
+        dimensions: int = 2,
+        tables: dict[str, Table] | None = None,
+        past: Past | None = None,
+    ) -> None:
         self.dimensions = dimensions
+        self.past = past
         self.tables = tables or {
             name: Table(columns) for name, columns in table_columns(dimensions).items()
         }
@@ -95,7 +115,8 @@ class State:
     step : int
         Loop count; 0 is the initial state.
     time : float
-        Model time, in steps; ``[units]`` gives a step a duration.
+        Model time: in steps, to which ``[units]`` gives a duration; on a tissue in the
+        unit of the model, as turnover times of a wall.
     blade : Blade or None
         The blade at this time, in real size; None for a stem.
     motion : ndarray of shape (2, 3), float64, or None
@@ -119,6 +140,10 @@ class State:
     base_ring : ndarray of shape (k,), int32, or None
         Ids of the nodes of the ring at the base of a stem, in their order around it;
         None for a blade.
+    tissue : Tissue or None
+        The cells of the blade, the same in all states of a run; None without cells.
+    fields : Fields or None
+        Auxin and carriers in them at this time; None without cells.
     """
 
     step: int
@@ -133,6 +158,8 @@ class State:
     index: object = field(repr=False, default=None)
     is_finished: bool = False
     base_ring: Ids | None = field(repr=False, default=None)
+    tissue: Tissue | None = field(repr=False, default=None)
+    fields: Fields | None = field(repr=False, default=None)
 
     @property
     def dimensions(self) -> int:

@@ -5,11 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference.drawn_networks import binary_tree, honeycomb, pinnate_leaf, without_seeds
 from reference.networks import PlainMoment, grid, network, sources, square_blade
 
-from vasc.analysis import statistics
+from vasc.analysis import network_statistics, statistics
+from vasc.analysis.statistics import POWERS
 from vasc.analysis.units import LengthUnit
 from vasc.network import Origin
+from vasc.real_network import RealNetwork
 
 KEYS = {
     "step",
@@ -27,6 +30,18 @@ KEYS = {
     "areole_area_cv",
     "free_ends",
     "junction_degree",
+    "areole_circularity_median",
+    "areole_elongation_median",
+    "areole_corners_mean",
+    "free_ends_per_areole",
+    "mst_ratio",
+    "density_x_sqrt_areole",
+    "distance_to_vein_mean",
+    "bohn_residual_median",
+    "bohn_residual_shuffled",
+    "loop_asymmetry",
+    "loop_asymmetry_shuffled",
+    "orders",
 }
 GRID = PlainMoment(grid(4, 4), square_blade(10.0), sources())
 
@@ -85,3 +100,95 @@ def test_a_stem_measured_by_hand():
 def test_units_of_a_config_without_units():
     assert LengthUnit.from_table(None) == LengthUnit.from_table({}) == LengthUnit("D", 1.0)
     assert LengthUnit.from_table({"length": "mm"}) == LengthUnit("mm", 1.0)
+
+
+def real(net, widths=None):
+    return RealNetwork.from_edges(net.positions, net.segments, widths=widths, unit="px")
+
+
+def test_a_honeycomb_and_a_grid_have_the_known_densities():
+    # length per area times the root of the mean area: 1.86 for hexagons, 2 for squares;
+    # the rim of forty areoles a side adds up to a thirtieth
+    hexagons, squares = (network_statistics(real(net)) for net in (honeycomb(40, 40), grid(40, 40)))
+    assert 1.861 < hexagons["density_x_sqrt_areole"] < 1.861 * (1.0 + 1.0 / 30.0)
+    assert squares["density_x_sqrt_areole"] == pytest.approx(2.0 + 2.0 / 40.0)
+    assert hexagons["areole_corners_mean"] == pytest.approx(6.0, abs=0.2)
+    assert hexagons["junction_degree"] == {"3": 1.0}
+
+
+def test_a_real_network_and_a_run_are_measured_alike():
+    net, widths, _ = pinnate_leaf()
+    moment = PlainMoment(without_seeds(net), square_blade(20.0), sources())
+    run, leaf = statistics(moment, widths=widths), network_statistics(real(net, widths))
+    assert run.keys() == leaf.keys()
+    assert leaf["length_unit"] == "px"
+    assert [leaf[key] for key in ("step", "time", "blade_length", "blade_area")] == [None] * 4
+    of_the_blade = {"step", "time", "length_unit", "blade_length", "blade_area", "vein_density"}
+    by_area = {"density_x_sqrt_areole", "density_x_distance"}
+    for key in run.keys() - of_the_blade - by_area:
+        if not key.startswith("distance"):
+            assert run[key] == leaf[key], key
+
+
+def test_without_widths_what_needs_them_is_none():
+    net, widths, _ = pinnate_leaf()
+    with_widths, without = (network_statistics(real(net, w)) for w in (widths, None))
+    changed = {key for key in without if without[key] != with_widths[key]}
+    assert {key for key in changed if without[key] is not None} == set()
+    assert {"orders", "bohn_residual_median", "loop_asymmetry", "strahler_order"} <= {
+        key for key in without if without[key] is None
+    }
+
+
+def test_a_seed_makes_the_shuffles():
+    net = honeycomb(12, 12)
+    widths = np.random.default_rng(5).uniform(1.0, 9.0, net.n_segments)
+    first, again, other = (network_statistics(real(net, widths), seed=s) for s in (1, 1, 2))
+    assert first == again
+    differing = {key for key in first if first[key] != other[key]}
+    assert differing == {key for key in first if key.endswith("shuffled")}
+
+
+def test_turning_and_scaling_a_leaf():
+    net, widths, _ = pinnate_leaf()
+    turn, size = np.array([[0.6, -0.8], [0.8, 0.6]]), 7.0
+    moved = network(size * net.positions @ turn.T, net.segments)
+    plain, large = (
+        network_statistics(real(net, widths)),
+        network_statistics(real(moved, size * widths)),
+    )
+    for key, value in plain.items():
+        if isinstance(value, float) and key != "box_dimension":
+            by_places = key.startswith(("distance", "density_x_distance"))
+            expected = value * size ** POWERS.get(key, 0)
+            assert large[key] == pytest.approx(expected, rel=0.02 if by_places else 1e-6), key
+    assert [o["segments"] for o in large["orders"].values()] == [3, 6, 1]
+
+
+@pytest.mark.parametrize(
+    "net",
+    [
+        network([], []),
+        network([(0, 0)], []),
+        network([(1, 1), (1, 1)], [(0, 1)]),
+        network([(0, 0), (0, 1)], [(0, 1)]),
+        network([(0, 0), (0, 1), (0, 2)], [(0, 1), (1, 0), (0, 1), (1, 2), (0, 2)]),
+        network([(0, 0), (0, 1), (5, 5), (6, 6), (7, 5)], [(0, 1), (2, 3), (3, 4), (4, 2)]),
+        binary_tree(4),
+        network([(0, 0), (2, 2), (0, 2), (2, 0)], [(0, 1), (2, 3)]),
+    ],
+    ids=["nothing", "a node", "no length", "a line", "twice", "pieces", "tree", "a crossing"],
+)
+def test_degenerate_networks_have_numbers_or_none(net):
+    moment = PlainMoment(net, square_blade(20.0), sources())
+    for found in (statistics(moment), network_statistics(real(net, np.ones(net.n_segments)))):
+        assert found.keys() >= KEYS
+        assert json.loads(json.dumps(found, allow_nan=False)) == found
+
+
+def test_a_tree_has_no_loops_and_is_its_own_spanning_tree():
+    found = network_statistics(real(binary_tree(5)))
+    assert (found["areoles"], found["cycles"]) == (0, 0)
+    assert found["mst_ratio"] == pytest.approx(1.0)
+    assert found["free_end_length_share"] == pytest.approx(1.0)
+    assert found["vein_density"] is found["areole_area_mean"] is None

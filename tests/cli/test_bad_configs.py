@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 
 import pytest
-from config.wrong_configs import WRONG, config
+from config.wrong_configs import WRONG, config, tissue_config
 
 from vasc.cli import main
 
@@ -58,6 +58,71 @@ def test_what_only_geometry_can_tell_is_refused_too(spoilt, part, here, capsys):
     assert line.startswith("leaf.toml: ")
     assert part in line
     assert [path.name for path in here.iterdir()] == ["leaf.toml"]
+
+
+LONG = 'blade = { shape = "ovate", length = 3000.0 }'
+APART = """blade = { points = [[0, 0], [10, 0], [10, 4.4], [20, 4.4], [20, 0], [30, 0], [30, 10],
+ [20, 10], [20, 4.45], [10, 4.45], [10, 10], [0, 10]], length = 10.0 }"""
+
+
+@pytest.mark.parametrize(
+    ("spoilt", "parts"),
+    [
+        (
+            {"placement": "points = [[5.0, 2.0], [50.0, 2.0]]"},
+            [
+                "placement.points[1] = [50, 2]",
+                "outside the tissue",
+                "(-0.5, -0.5) and (20.5, 10.5)",
+            ],
+        ),
+        (
+            {"placement": "points = [[10.1, 9.9]]"},
+            ["placement.points[0] = [10.1, 9.9]", "in a cell of a vein"],
+        ),
+        (
+            {"placement": "points = [[5.0, 2.0], [6.0, 2.0], [5.1, 2.0]]"},
+            ["placement.points[2] = [5.1, 2]", "two sources lie in one cell", "[5, 2]"],
+        ),
+        (
+            {"veins": "lines = [[[1.0, 1.0]], [[10.0, 10.0], [10.0, 20.0]]]"},
+            ["veins.lines[1]", "outside the tissue at (10, 11.25)", "(20.5, 10.5)"],
+        ),
+        ({"domain": LONG}, ["domain.blade.length = 3000", "at most 250,000"]),
+        (
+            {"domain": 'blade = { shape = "ovate", length = 0.5 }'},
+            ["domain.blade: has room for 0 cells", "at least 2"],
+        ),
+        ({"domain": APART}, ["domain.blade: falls apart: ", "share no wall"]),
+        (
+            {"domain": 'blade = { shape = "ovate", length = 9.0, seeds = [[5.0, 5.0]] }'},
+            ["domain.blade.seeds[0]", "outside the outline"],
+        ),
+    ],
+    ids=[
+        *("source outside", "source in a vein", "two sources in a cell", "vein outside"),
+        *("too large", "too small", "apart", "seed outside"),
+    ],
+)
+def test_what_only_a_tissue_can_tell_is_refused_too(spoilt, parts, here, capsys):
+    (here / "tissue.toml").write_text(tissue_config(**spoilt))
+    (line,) = refused(["run", "tissue.toml"], capsys)
+    assert line.startswith("tissue.toml: ")
+    assert [part for part in parts if part not in line] == []
+    assert [path.name for path in here.iterdir()] == ["tissue.toml"]
+
+
+def test_sources_of_a_tissue_are_read_from_a_file(here, capsys):
+    text = tissue_config(placement='kind = "given"\nfile = "s.csv"')
+    (here / "tissue.toml").write_text(text)
+    for content, part in {
+        "x,y,birth\n5,2,1\n7,2,3\n": 'placement.file = "s.csv": its births hold 3 but not 2',
+        "x,y\n5,2\n5,oops\n": "line 3",
+        "x,y\n5,2\n50,2\n": "placement.file: source [50, 2]: lies outside the tissue",
+    }.items():
+        (here / "s.csv").write_text(content)
+        (line,) = refused(["run", "tissue.toml"], capsys)
+        assert part in line
 
 
 @pytest.mark.parametrize(

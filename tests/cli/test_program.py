@@ -32,7 +32,7 @@ def started(*arguments, **options):
 
 def test_there_is_a_verb_for_everything():
     assert set(NAMES) == {
-        *("configs", "run", "resume", "show", "events", "lineage", "stats"),
+        *("configs", "run", "resume", "show", "events", "lineage", "stats", "compare"),
         *("render", "animate", "export", "verify", "schema", "sweep", "validate"),
     }
 

@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import shutil
+import sys
 
 import h5py
 import pytest
@@ -122,7 +123,10 @@ def test_stats_for_scripts_have_the_keys_that_are_promised(leaf, capsys):
     stats = json.loads(output(["stats", leaf, "--json"], capsys))
     promised = "step, time, blade_length, blade_area, nodes, segments, components, cycles"
     promised += ", vein_length, vein_density, areoles, areole_area_mean, areole_area_cv"
-    promised += ", free_ends, junction_degree"
+    promised += ", free_ends, junction_degree, areole_circularity_median, areole_elongation_median"
+    promised += ", areole_corners_mean, free_ends_per_areole, mst_ratio, density_x_sqrt_areole"
+    promised += ", distance_to_vein_mean, bohn_residual_median, bohn_residual_shuffled"
+    promised += ", loop_asymmetry, loop_asymmetry_shuffled, orders"
     assert set(promised.split(", ")) <= set(stats)
     assert stats["components"] == 1
     assert stats["cycles"] == stats["segments"] - stats["nodes"] + 1 > 0
@@ -131,7 +135,9 @@ def test_stats_for_scripts_have_the_keys_that_are_promised(leaf, capsys):
     young = json.loads(output(["stats", leaf, "--json", "--step", "10"], capsys))
     assert young["step"] == 10
     assert young["nodes"] < stats["nodes"]
-    assert f"nodes             {stats['nodes']:,}\n" in output(["stats", leaf], capsys)
+    shown = dict(line.split(maxsplit=1) for line in output(["stats", leaf], capsys).split("\n")[:8])
+    assert shown["nodes"] == f"{stats['nodes']:,}"
+    assert set(stats["orders"]["1"]) == {"length", "segments", "width_mean"}
 
 
 def test_a_step_that_is_not_recorded_is_refused(leaf, capsys):
@@ -338,17 +344,39 @@ def test_a_leaf_is_not_unrolled(recorded, tmp_path, capsys):
     assert not (tmp_path / "a.png").exists()
 
 
-def test_only_a_stem_is_exported(recorded, tmp_path, capsys):
-    words = ["export", str(recorded / "leaf.h5"), "-o", str(tmp_path / "a.ply")]
-    assert main(words) == 2
-    assert "is no stem, but a run of the kind" in capsys.readouterr().err
-    (tmp_path / "stem.toml").write_text(STEM)
-    run = str(tmp_path / "stem.h5")
-    assert main(["run", str(tmp_path / "stem.toml"), "-o", run, "--no-figure", "--quiet"]) == 0
-    words[1] = run
-    assert main(words) == 0
-    capsys.readouterr()
-    assert main(words) == 2
-    assert "exists" in capsys.readouterr().err
-    assert main([*words, "--force", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out) == {"files": [str(tmp_path / "a.ply")]}
+def test_a_run_is_exported_once_and_again_when_forced(leaf, tmp_path, capsys):
+    for name in ("a.graphml", "a.csv", "a.pvd"):
+        words = ["export", leaf, "-o", str(tmp_path / name), "--step", "20"]
+        assert name in output(words, capsys)
+        assert main(words) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert "exists already; use --force" in line
+        written = output([*words, "--force", "--json"], capsys)
+        assert json.loads(written) == {"files": [str(tmp_path / name)]}
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["-o", "a.bmp"], "'.bmp' is not one of .csv"),
+        (["-o", "a"], "'' is not one of .csv"),
+        (["-o", "none/a.svg"], "the folder 'none' does not exist"),
+        (["-o", "a.svg", "--every", "2"], "--every is for a series"),
+        (["-o", "a.swc"], "--spanning-tree leaves the joins out"),
+        (["-o", "a.vtp", "--step", "9999"], "step 9999 is not recorded"),
+    ],
+)
+def test_a_wrong_export_is_refused_in_a_line(words, said, leaf, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["export", leaf, *words]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert said in line
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_missing_package_is_named_in_a_line(leaf, tmp_path, capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "trimesh", None)
+    assert main(["export", leaf, "-o", str(tmp_path / "a.obj")]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert 'pip install "vasc[mesh]"' in line
+    assert list(tmp_path.iterdir()) == []

@@ -119,6 +119,8 @@ def test_every_bundled_config_could_be_half_as_long_again():
             larger = [f"placement.rise={rise}", f"domain.radius={radius}"]
             load(one.name, [parse_override(change) for change in larger])
             continue
+        if "growth" not in tables:
+            continue  # cells have a size of their own
         growth = tables["growth"]
         if growth["kind"] in ("keyframed", "local_to_global"):
             continue  # they tell no final length

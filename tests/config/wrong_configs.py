@@ -20,7 +20,115 @@ def config(**tables):
     return text
 
 
-WRONG = {
+GOOD_TISSUE = {
+    "top": 'kind = "canalization"\nseed = 1',
+    "domain": 'kind = "rectangular"\ncolumns = 21\nrows = 11',
+    "veins": "lines = [[[10.0, 10.0]]]",
+    "placement": 'kind = "given"\npoints = [[5.0, 2.0]]',
+    "transport": 'kind = "facilitated"',
+}
+
+
+def tissue_config(**tables):
+    """Give a sound config of canalization with tables replaced, or left out."""
+    return config(**dict.fromkeys(GOOD, None) | GOOD_TISSUE | tables)
+
+
+BLADE = 'blade = { shape = "ovate", length = 20.0 }'
+
+WRONG_TISSUES = {
+    "rows alone": (
+        tissue_config(domain="rows = 11"),
+        "domain: 'rows' given",
+        "either 'columns' and 'rows' or 'blade'",
+    ),
+    "no cells": (tissue_config(domain='kind = "hexagonal"'), "domain: neither given"),
+    "box and blade": (
+        tissue_config(domain=f"columns = 21\nrows = 11\n{BLADE}"),
+        "'columns' and 'rows' and 'blade' given",
+    ),
+    "too many cells": (
+        tissue_config(domain="columns = 20000\nrows = 20"),
+        "columns = 20000 and rows = 20",
+        "between 2 and 250,000",
+    ),
+    "one cell": (tissue_config(domain="columns = 1\nrows = 1"), "between 2 and 250,000"),
+    "no column": (
+        tissue_config(domain="columns = 0\nrows = 11"),
+        "domain.columns = 0",
+        "at least 1",
+    ),
+    "cells of an unknown kind": (
+        tissue_config(domain='kind = "triangular"\ncolumns = 21\nrows = 11'),
+        'domain.kind = "triangular"',
+        '"hexagonal", "rectangular", "voronoi"',
+    ),
+    "steps of Lloyd for squares": (
+        tissue_config(domain="columns = 21\nrows = 11\nlloyd = 3"),
+        "domain.lloyd = 3",
+        'unknown key for kind "rectangular"',
+    ),
+    "unknown shape of a tissue": (
+        tissue_config(domain='blade = { shape = "ovat", length = 20.0 }'),
+        'domain.blade.shape = "ovat"',
+        'nearest: "ovate"',
+    ),
+    "outline of a tissue that is not there": (
+        tissue_config(domain='blade = { file = "none.csv", length = 20.0 }'),
+        'domain.blade.file = "none.csv"',
+        "no such file",
+    ),
+    "no veins": (tissue_config(veins="lines = []"), "veins: give 'lines' or margin = true"),
+    "vein of no point": (tissue_config(veins="lines = [[]]"), "veins.lines[0] = []", "at least 1"),
+    "point of one number in a tissue": (
+        tissue_config(veins="lines = [[[10.0]]]"),
+        "veins.lines[0][0] = [10.0]",
+        "2 numbers",
+    ),
+    "points and file of sources": (
+        tissue_config(placement='kind = "given"'),
+        "placement: give either 'points' or 'file'",
+    ),
+    "too few rounds": (
+        tissue_config(placement="points = [[5.0, 2.0]]\nrounds = [1, 2]"),
+        "'rounds' needs one number for each",
+    ),
+    "rounds that start late": (
+        tissue_config(placement="points = [[5.0, 2.0]]\nrounds = [2]"),
+        "placement: 'rounds' hold 2 but not 1",
+        "start at 1 and leave none out",
+    ),
+    "rounds with a gap": (
+        tissue_config(placement="points = [[5.0, 2.0], [7.0, 2.0]]\nrounds = [1, 3]"),
+        "placement: 'rounds' hold 3 but not 2",
+    ),
+    "darts that move away": (
+        tissue_config(
+            placement='kind = "darts"\ncount = 3\nfirst_distance = 1.0\nlast_distance = 2.0'
+        ),
+        "placement: 'last_distance' is 2",
+        "at most 'first_distance', 1",
+    ),
+    "no darts": (
+        tissue_config(
+            placement='kind = "darts"\ncount = 0\nfirst_distance = 2.0\nlast_distance = 2.0'
+        ),
+        "placement.count = 0",
+        "at least 1",
+    ),
+    "no room for carriers": (
+        tissue_config(transport='kind = "polar"\nsaturation = 0.05'),
+        "transport: 'saturation' is 0.05",
+        "greater than 'baseline', 0.1",
+    ),
+    "saturation of another word": (
+        tissue_config(transport='kind = "polar"\nsaturation = "non"'),
+        'transport.saturation = "non"',
+        'a number or "none"',
+    ),
+}
+
+WRONG = WRONG_TISSUES | {
     # kinds and tables
     "no kind": (config(top="seed = 1"), "kind: missing", '"open", "closed"'),
     "unknown kind": (config(top='kind = "closd"'), 'kind = "closd"', 'nearest: "closed"'),

@@ -241,3 +241,17 @@ def test_an_attachment_that_cannot_be_is_refused(attachment, tip, said, tmp_path
     with pytest.raises(OutlineError) as caught:
         read_outline(path, attachment=attachment, tip=tip)
     assert said in str(caught.value)
+
+
+@pytest.mark.parametrize("mark", ['fill="none"', 'style="stroke: black; fill: none"'])
+def test_a_path_that_is_a_mere_line_is_no_outline(mark, tmp_path):
+    path = tmp_path / "leaf.svg"
+    line = f'<path d="M0 0 L9 0 L9 2" {mark}/>'
+    path.write_text(svg(f'{line}<polygon points="{pairs(DOWN)}"/>'))
+    assert len(read_outline(path)) == 1
+    # a closed path that is not filled is one
+    path.write_text(svg(f'{line}<path d="M {pairs(DOWN, ",", " L ")} Z" {mark}/>'))
+    assert len(read_outline(path)) == 1
+    path.write_text(svg(line))
+    with pytest.raises(OutlineError, match="holds no closed <path>"):
+        read_outline(path)

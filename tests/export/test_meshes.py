@@ -120,7 +120,7 @@ def test_a_file_reads_back(run_file, stem, suffix, tmp_path):
     file = export(run_file, tmp_path / f"stem{suffix}")
     read = trimesh.load(file, force="mesh", process=False)
     mesh = mesh_of(stem.positions, stem.segments, stem.primordia)
-    points = mesh.points[:, [1, 2, 0]] if suffix == ".glb" else mesh.points
+    points = mesh.points[:, [1, 2, 0]] if suffix in (".glb", ".gltf") else mesh.points
     np.testing.assert_allclose(read.bounds, [points.min(axis=0), points.max(axis=0)], atol=1e-3)
     assert len(read.faces) == len(mesh.faces)
     assert read.is_watertight
@@ -137,7 +137,7 @@ def test_a_step_is_exported_as_it_was(run_file, tmp_path):
 
 
 def test_wrong_files_are_refused(run_file, tmp_path):
-    with pytest.raises(OutputError, match=r"'\.stl' is not one of \.ply"):
+    with pytest.raises(OutputError, match=r"'\.stl' is not one of \.csv, .*\.ply"):
         export(run_file, tmp_path / "a.stl")
     with pytest.raises(OutputError, match="does not exist"):
         export(run_file, tmp_path / "nowhere" / "a.ply")

@@ -25,6 +25,7 @@ class Recording:
     units: dict = field(default_factory=dict)
     config: dict = field(default_factory=dict)
     dimensions: int = 2
+    tissue: None = None
 
     @property
     def last_step(self):

@@ -18,11 +18,13 @@ from vasc.sweeps.measures import (
     MEASURES,
     SEQUENCE,
     STATISTICS,
+    STRAND,
     measure,
     name_problem,
 )
 from vasc.timeline import Timeline
 from vasc.validation import arabidopsis
+from vasc.validation.strands import check_strand
 
 
 @pytest.fixture(scope="module")
@@ -65,7 +67,8 @@ def test_the_criteria_and_features_are_those_of_the_sequence():
 
 
 def test_every_measure_of_a_leaf_is_a_plain_value(leaf):
-    names = [name for name in MEASURES if not name.startswith("check.connectivity")]
+    others = ("check.connectivity", "check.strand")
+    names = [name for name in MEASURES if not name.startswith(others)]
     values, problems = measure(leaf, names)
     assert list(values) == names
     json.dumps(values, allow_nan=False)
@@ -110,6 +113,20 @@ def test_a_stem_has_pairs_and_numbers_of_links(stem):
     assert values[names[1]] > 20
     assert values[names[2]] is True
     assert values["stats.blade_area"] is None
+
+
+def test_a_strand_is_measured_as_it_is_checked(tmp_path):
+    experiment.run(load("mitchison-two-sinks-left"), tmp_path / "canals.h5")
+    names = [name for name in MEASURES if name.startswith(("check.strand", "stats", "summary"))]
+    with Timeline(tmp_path / "canals.h5") as timeline:
+        values, problems = measure(timeline, names)
+        report = check_strand(timeline).as_json()
+    assert problems == []
+    assert set(report) - set(STRAND) == {"end_node", "activation", "thresholds"}
+    assert values["check.strand.pass"] is report["pass"]
+    assert values["check.strand.tortuosity"] == report["tortuosity"]
+    assert values["check.strand.sinks"] == len(report["sinks"])
+    json.dumps(values, allow_nan=False)
 
 
 def test_what_cannot_be_measured_is_a_line_without_the_place_of_the_run(leaf):

@@ -17,12 +17,15 @@ ROOT = Path(__file__).parents[2]
 RUN = """
 import sys
 from pathlib import Path
-from timeline import synthetic
+from timeline import canals, synthetic
 from vasc.timeline import writer
 
 writer.BATCH_FRAMES = {batch}
-synthetic.{verb}(Path(sys.argv[1]), {last_step}, kind=synthetic.{kind})
+{call}
 """
+
+SYNTHETIC = "synthetic.{verb}(Path(sys.argv[1]), {last_step}, kind=synthetic.{kind})"
+"""What is run but for real models."""
 
 CALL = re.compile(r"^\d+ +(pwrite64|ftruncate|link|rename)\((?:\d+<([^>]*)>, )?(.*)\) += (\d+)$")
 WRITE = re.compile(r'^"((?:\\x..)*)", (\d+), (\d+)$')
@@ -38,9 +41,16 @@ class Change(NamedTuple):
 def trace(
     path: Path, verb: str, kind: str, *, batch: int, last_step: int
 ) -> tuple[list[Change], int]:
+    """Trace a run that computes nothing, to its end: see :func:`trace_call`."""
+    return trace_call(
+        path, SYNTHETIC.format(verb=verb, last_step=last_step, kind=kind), batch=batch
+    )
+
+
+def trace_call(path: Path, call: str, *, batch: int) -> tuple[list[Change], int]:
     """Run to the end; give what changed the file, and the calls made before it had its name."""
     log = path.with_suffix(".trace")
-    code = RUN.format(batch=batch, verb=verb, last_step=last_step, kind=kind)
+    code = RUN.format(batch=batch, call=call)
     calls = "trace=pwrite64,ftruncate,link,rename"
     watch = ["strace", "-f", "-y", "-xx", "-s", "20000000", "-o", str(log), "-e", calls]
     paths = os.pathsep.join([str(ROOT), str(ROOT / "tests"), os.environ.get("PYTHONPATH", "")])

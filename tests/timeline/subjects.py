@@ -32,6 +32,24 @@ with open(watched, "r+b") as file:
 """
 
 
+CANALS = """
+import mmap, signal, struct, sys
+from pathlib import Path
+from timeline import canals
+from vasc.timeline import writer
+
+path, watched, verb = Path(sys.argv[1]), sys.argv[2], sys.argv[3]
+writer.BATCH_FRAMES = {batch}
+signals = []
+signal.signal(signal.SIGINT, lambda number, frame: signals.append(number))
+with open(watched, "r+b") as file:
+    shared = mmap.mmap(file.fileno(), 8)
+    def watch(step):
+        struct.pack_into("q", shared, 0, step)
+    getattr(canals, verb)(path, "{kind}", watch=watch, should_stop=lambda: bool(signals))
+"""
+
+
 @dataclass(frozen=True)
 class Subject:
     """A run in a child process.
@@ -92,10 +110,22 @@ SUBJECTS = [
         seconds=0.6,
     ),
     Subject(
+        "tissue",
+        SYNTHETIC.format(batch=16, last_step=1600, kind="TissueRun"),
+        batch=16,
+        seconds=0.6,
+    ),
+    Subject(
         "stem",
         SYNTHETIC.format(batch=16, last_step=2400, kind="StemRun"),
         batch=16,
         seconds=0.6,
     ),
+    Subject(
+        "canals",
+        CANALS.format(batch=16, kind="polar"),
+        batch=16,
+        seconds=0.6,
+    ),
 ]
-"""A real run is added here in the same form."""
+"""Runs that compute nothing, and one of a real model."""

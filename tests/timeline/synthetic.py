@@ -11,13 +11,16 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from vasc.domain import Blade
+from vasc.domain.tilings import rectangular
 from vasc.events import EventKind, StopReason
+from vasc.fields import FIELD_COLUMNS, Fields, Role
 from vasc.network import Origin
 from vasc.sources import Cause
 from vasc.state import Places, State, Tables, affine, moved, source_states
 from vasc.states import CanalState, Kind, SourceState, check_transitions
 from vasc.streams import Streams
 from vasc.timeline import Motion, Recorder, Timeline
+from vasc.timeline.tissues import arrays_of
 
 NAMES = ("placement",)
 SEED = 5
@@ -288,6 +291,58 @@ class StemRun(SyntheticRun):
             )
 
 
+class TissueRun(SyntheticRun):
+    """Cells that stay where they are; carriers keep a part of what they were the step before."""
+
+    tissue = rectangular(7, 5)
+    VEINS = (30, 31)
+    SOURCE = 3
+
+    def __init__(self, last_step: int, **rates: int) -> None:
+        super().__init__(last_step, **rates)
+        self.blade = self.tissue.blade
+        self.fields: Fields | None = None
+
+    def restore(self, tables: Tables, step: int) -> None:
+        super().restore(tables, step)
+        self.fields = tables.past.fields(step)
+        assert tables.past.time(step) == 0.5 * step
+
+    def _moved(self, material: np.ndarray) -> np.ndarray:
+        return material
+
+    def _where(self) -> dict:
+        if self.fields is None:
+            carriers = np.ones((self.tissue.n_walls, 2))
+            self.fields = self._fields(np.random.default_rng(0), carriers)
+        return {
+            "blade": self.blade,
+            "motion": affine(1.0),
+            "outline_motion": affine(1.0),
+            "tissue": self.tissue,
+            "fields": self.fields,
+        }
+
+    def _differentiate(self, random: np.random.Generator) -> None:
+        self.fields = self._fields(random, self.fields.carriers)
+
+    def _fields(self, random: np.random.Generator, carriers: np.ndarray) -> Fields:
+        roles = np.full(self.tissue.n_cells, Role.GROUND, dtype=np.int8)
+        roles[self.SOURCE], roles[list(self.VEINS)] = Role.SOURCE, Role.VEIN
+        flux = random.normal(size=self.tissue.n_walls)
+        first, second = (roles[self.tissue.walls] == Role.VEIN).T
+        # out of no vein, and along none
+        flux[first] = -np.abs(flux[first])
+        flux[second] = np.abs(flux[second])
+        flux[first & second] = 0.0
+        return Fields(
+            concentration=random.random(self.tissue.n_cells),
+            flux=flux,
+            carriers=0.5 * carriers + random.random((self.tissue.n_walls, 2)),
+            roles=roles,
+        )
+
+
 def create(path: Path, kind: type[SyntheticRun] = SyntheticRun, **options: object) -> Recorder:
     is_stem = kind.dimensions == 3
     settings: dict = {
@@ -296,10 +351,11 @@ def create(path: Path, kind: type[SyntheticRun] = SyntheticRun, **options: objec
         "model": "synthetic",
         "growth": "none" if is_stem else "isogonic",
         "seed": SEED,
-        "blade": None if is_stem else blade(),
+        "blade": None if is_stem else kind(0).blade,
         "motion": kind.motion,
         "dimensions": kind.dimensions,
         "base_ring": np.arange(N_RING, dtype=np.int32) if is_stem else None,
+        "tissue": getattr(kind, "tissue", None),
         "stream_names": NAMES,
         "units": {"length": "um", "segment": 4.0},
     }
@@ -356,6 +412,12 @@ def contents(path: Path, n_frames: int | None = None) -> dict[str, bytes]:
         for name in timeline.n_places:
             steps = [timeline.places(name, step).tobytes() for step in range(n)]
             found[f"motion/{name}"] = b"".join(steps)
+        if timeline.tissue is not None:
+            found |= {name: rows.tobytes() for name, rows in arrays_of(timeline.tissue).items()}
+            fields = [timeline.fields(step) for step in range(n)]
+            for name in FIELD_COLUMNS:
+                steps = [getattr(one, name).tobytes() for one in fields]
+                found[f"fields/{name}"] = b"".join(steps)
         for name, table in timeline.tables(n - 1).tables.items():
             for column in table.columns:
                 found[f"{name}/{column}"] = table.view(column).tobytes()

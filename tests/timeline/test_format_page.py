@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from vasc.events import EventKind, StopReason
-from vasc.timeline import areole_rules, layout, motion_rules, rules, validation
+from vasc.timeline import areole_rules, layout, motion_rules, rules, tissue_rules, validation
 
 PAGE = (Path(__file__).parents[2] / "docs" / "timeline-format.md").read_text(encoding="utf-8")
 SOURCES = "".join(
     Path(module.__file__).read_text(encoding="utf-8")
-    for module in (rules, motion_rules, areole_rules, validation)
+    for module in (rules, motion_rules, areole_rules, tissue_rules, validation)
 )
 
 
@@ -27,7 +27,7 @@ COLUMNS = {
     name: column
     for motion in layout.Motion
     for name, column in layout.growing_columns(1, motion).items()
-}
+} | layout.growing_columns(1, has_tissue=True)
 IN_SPACE = layout.growing_columns(1, layout.Motion.NONE, dimensions=3)
 
 

@@ -49,17 +49,19 @@ def kill_at_random(subject, whole, folder, trials, seed):
     chance = random.Random(seed)
     killed = 0
     for trial in range(trials):
-        path = folder / f"{trial}.h5"
+        path, n_sessions = folder / f"{trial}.h5", 1
         for verb in ("record", "resume"):
             kill_once(subject, path, verb, chance.uniform(0.0, subject.seconds))
             check_killed(subject, path, whole)
             with Timeline(path) as timeline:
                 killed += not timeline.is_complete
+                n_sessions += not timeline.is_complete
         subject.finish(path, "resume")
         assert contents(path) == contents(whole)
         with Timeline(path) as timeline:
             assert timeline.is_complete
-            assert len(timeline.provenance) >= 3
+            # what is complete need not be continued
+            assert len(timeline.provenance) >= n_sessions
     # a kill after the end of the run proves nothing
     assert killed >= trials // 2
 

@@ -14,6 +14,8 @@ def test_a_reader_sees_whole_steps_of_a_run_that_is_being_written(subject, tmp_p
     subject.finish(whole, "record")
     with Timeline(whole) as timeline:
         frames, tables = timeline.frames, timeline.tables()
+        has_tissue = timeline.tissue is not None
+        fields = [timeline.fields(step) for step in range(timeline.n_frames)] if has_tissue else []
     child = subject.start(path, "record")
     seen = []
     while child.poll() is None:
@@ -30,6 +32,9 @@ def test_a_reader_sees_whole_steps_of_a_run_that_is_being_written(subject, tmp_p
                 for column in table.columns:
                     expected = tables[name].view(column, 0, table.n_rows)
                     assert np.array_equal(table.view(column), expected), f"{name}/{column}"
+            for step in {0, n_frames // 2, n_frames - 1} if has_tissue else ():
+                for rows, expected in zip(timeline.fields(step), fields[step], strict=True):
+                    assert np.array_equal(rows, expected), step
     _, errors = child.communicate()
     assert child.returncode == 0, errors.decode()
     assert seen == sorted(seen)

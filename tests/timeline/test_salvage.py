@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from timeline import crash_points, synthetic
 from timeline.subjects import ROOT
-from timeline.synthetic import ExplicitRun, StemRun, SyntheticRun, contents
+from timeline.synthetic import ExplicitRun, StemRun, SyntheticRun, TissueRun, contents
 
 from vasc.errors import TimelineError
 from vasc.timeline import Recorder, Timeline, guard, storage, validate, writer
@@ -27,7 +27,9 @@ END_AT = 40
 
 
 @pytest.fixture(
-    scope="module", params=[SyntheticRun, ExplicitRun, StemRun], ids=lambda kind: kind.motion
+    scope="module",
+    params=[SyntheticRun, ExplicitRun, StemRun, TissueRun],
+    ids=lambda kind: kind.__name__,
 )
 def kind(request):
     return request.param
@@ -249,7 +251,7 @@ def test_a_run_killed_at_any_write_call_reads_and_goes_on(kind, verb, tmp_path):
             assert contents(path) == expected(last_step + 1)
         except (TimelineError, OSError, AssertionError) as error:
             lost.append((number, str(error)))
-    print(f"{kind.motion} {verb}: {tried} tried, {len(lost)} lost")
+    print(f"{kind.__name__} {verb}: {tried} tried, {len(lost)} lost")
     assert tried > n_calls // 2
     assert lost == []
 

@@ -29,6 +29,28 @@ birth_distance_veins = 20.0
 kill_distance = 1.0
 """
 
+CANALS = """
+kind = "canalization"
+background = 0.1
+[domain]
+kind = "rectangular"
+columns = 31
+rows = 17
+[veins]
+lines = [[[5, 16]], [[25, 16]]]
+[placement]
+points = [[12, 4], [18, 6], [3, 3], [28, 8]]
+rounds = [1, 2, 2, 3]
+[settling]
+noise = 0.1
+[transport]
+kind = "{kind}"
+"""
+
+CONFIGS = {"leaf": CONFIG} | {
+    kind: CANALS.format(kind=kind) for kind in ("facilitated", "polar", "pool")
+}
+
 N_KILLS = 50
 VASC = [sys.executable, "-m", "vasc"]
 
@@ -47,9 +69,10 @@ def contents(path):
 
 
 @pytest.mark.slow
-def test_fifty_kills(tmp_path):
-    config = tmp_path / "leaf.toml"
-    config.write_text(CONFIG)
+@pytest.mark.parametrize("toml", CONFIGS.values(), ids=CONFIGS)
+def test_fifty_kills(tmp_path, toml):
+    config = tmp_path / "run.toml"
+    config.write_text(toml)
     whole = tmp_path / "whole.h5"
     started = time.monotonic()
     quiet = ["--quiet", "--no-figure"]

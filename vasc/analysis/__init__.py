@@ -2,15 +2,23 @@
 
 from vasc.analysis.areoles import Areoles, find_areoles
 from vasc.analysis.branches import branch_orders
-from vasc.analysis.statistics import statistics
+from vasc.analysis.run_widths import run_widths
+from vasc.analysis.sections import Sections, find_sections
+from vasc.analysis.statistics import network_statistics, statistics
+from vasc.analysis.vein_orders import vein_orders
 from vasc.analysis.widths import WidthParameters, murray_radii, segment_radii
 
 __all__ = [
     "Areoles",
+    "Sections",
     "WidthParameters",
     "branch_orders",
     "find_areoles",
+    "find_sections",
     "murray_radii",
+    "network_statistics",
+    "run_widths",
     "segment_radii",
     "statistics",
+    "vein_orders",
 ]

@@ -6,11 +6,13 @@ from typing import TYPE_CHECKING, Protocol
 
 from vasc.canals import CanalSet
 from vasc.errors import VascError
+from vasc.fields import Fields
 from vasc.network import VeinNetwork
 from vasc.sources import SourceSet
 
 if TYPE_CHECKING:
     from vasc.domain import Blade
+    from vasc.domain.tissue import Tissue
 
 
 class Moment(Protocol):
@@ -39,6 +41,14 @@ class Moment(Protocol):
     @property
     def canals(self) -> CanalSet:
         """The canals, in real size."""
+
+    @property
+    def tissue(self) -> Tissue | None:
+        """The cells of the blade; None in a run without cells."""
+
+    @property
+    def fields(self) -> Fields | None:
+        """Auxin and carriers in the cells; None in a run without cells."""
 
 
 def blade_of(moment: Moment) -> Blade:

@@ -4,14 +4,29 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from vasc.analysis.areoles import find_areoles
-from vasc.analysis.density import vein_density, vein_length
+import numpy as np
+
+from vasc.analysis.density import vein_length
+from vasc.analysis.measures import Measured, measure
 from vasc.analysis.moment import Moment, blade_of
+from vasc.analysis.sections import find_sections
 from vasc.analysis.topology import count_components, count_cycles, free_ends, junction_degree
 from vasc.analysis.units import LengthUnit
+from vasc.analysis.widths import segment_radii
+from vasc.arrays import Floats
+from vasc.network import VeinNetwork
+from vasc.real_network import RealNetwork
+
+Numbers = dict[str, Any]
 
 
-def statistics(moment: Moment, units: Mapping[str, Any] | None = None) -> dict[str, Any]:
+def statistics(
+    moment: Moment,
+    units: Mapping[str, Any] | None = None,
+    *,
+    widths: Floats | None = None,
+    seed: int = 0,
+) -> Numbers:
     """Measure a venation pattern.
 
     Parameters
@@ -21,60 +36,130 @@ def statistics(moment: Moment, units: Mapping[str, Any] | None = None) -> dict[s
     units : mapping, optional
         The run's ``[units]`` table; lengths, areas and densities are then in
         its unit of length instead of D.
+    widths : ndarray of shape (m,), float64, optional
+        Widths of the segments, in D; by Murray's law if left out.
+    seed : int
+        Of the shuffled controls.
 
     Returns
     -------
     dict
-        Plain numbers, ready for JSON: ``step, time, length_unit, blade_length,
-        blade_area, nodes, segments, components, cycles, vein_length,
-        vein_density`` (length per area), ``areoles, areole_area_mean,
-        areole_area_cv`` (standard deviation over mean), ``free_ends,
-        junction_degree`` (degree, as text, to its share of the junctions).
-        What cannot be said of a pattern without areoles is None, and of a stem all
-        that is said of blades and areoles.
+        Plain numbers, ready for JSON; docs/statistics.md says what each key is.
+        What cannot be said of a pattern, as areas of areoles without any, is None, and
+        of a stem all that needs a drawing in the plane.
     """
     unit = LengthUnit.from_table(units)
-    scale = unit.per_segment
     network = moment.network
+    when = {"step": int(moment.step), "time": float(moment.time), "length_unit": unit.name}
+    if network.positions.shape[1] == 3:
+        return when | _in_unit(_of_stem(network), unit.per_segment)
+    blade = blade_of(moment)
+    widths = 2.0 * segment_radii(network) if widths is None else widths
+    measured = measure(find_sections(network, widths), blade.polygon, seed=seed)
+    blade_size = {"blade_length": float(blade.length), "blade_area": float(blade.area)}
+    numbers = _numbers(network, measured, float(blade.area), blade_size)
+    return when | _in_unit(numbers, unit.per_segment)
+
+
+def network_statistics(real: RealNetwork, *, seed: int = 0) -> Numbers:
+    """Measure a real vein network, by the same code and under the same keys.
+
+    Parameters
+    ----------
+    real : RealNetwork
+        The veins; without measured widths all that needs them is None.
+    seed : int
+        Of the shuffled controls.
+
+    Returns
+    -------
+    dict
+        As :func:`statistics` gives. There is neither step nor blade; densities refer
+        to the area that the veins enclose.
+    """
+    sections = find_sections(real.network, real.widths, real.lengths)
+    measured = measure(sections, None, has_widths=real.widths is not None, seed=seed)
+    numbers = _numbers(
+        real.network,
+        measured,
+        measured.enclosed_area,
+        {"blade_length": None, "blade_area": None},
+    )
+    return {"step": None, "time": None, "length_unit": real.unit or None} | _in_unit(numbers, 1.0)
+
+
+def _numbers(network: VeinNetwork, measured: Measured, area: float, blade: Numbers) -> Numbers:
+    """Give all numbers of a pattern on a blade of some area, in the unit of the network."""
     components = count_components(network)
-    is_in_space = network.positions.shape[1] == 3
-    # all keys are there for any run, in one order
+    ends, areoles = len(free_ends(network)), measured.areoles
+    length = float(measured.sections.segment_lengths.sum())
+    density = length / area if area > 0.0 else math.nan
+    degrees = junction_degree(network)
     return {
-        "step": int(moment.step),
-        "time": float(moment.time),
-        "length_unit": unit.name,
-        "blade_length": None,
-        "blade_area": None,
+        **blade,
         "nodes": network.n_vein_nodes,
         "segments": network.n_segments,
         "components": components,
         "cycles": count_cycles(network, components=components),
-        "vein_length": vein_length(network) * scale,
-        "vein_density": None,
-        "areoles": None,
-        "areole_area_mean": None,
-        "areole_area_cv": None,
-        "free_ends": len(free_ends(network)),
-        "junction_degree": {
-            str(degree): share for degree, share in junction_degree(network).items()
-        },
-    } | ({} if is_in_space else _of_blade(moment, scale))
-
-
-def _of_blade(moment: Moment, scale: float) -> dict[str, Any]:
-    """Measure what only a pattern in a blade has."""
-    network, blade = moment.network, blade_of(moment)
-    areoles = find_areoles(network)
-    return {
-        "blade_length": float(blade.length) * scale,
-        "blade_area": float(blade.area) * scale**2,
-        "vein_density": vein_density(network, float(blade.area)) / scale,
-        "areoles": areoles.n_areoles,
-        "areole_area_mean": _known(areoles.mean_area * scale**2),
-        "areole_area_cv": _known(areoles.area_variation),
+        "vein_length": length,
+        "vein_density": density,
+        **measured.areole_numbers(),
+        "enclosed_area": measured.enclosed_area,
+        "free_ends": ends,
+        "free_ends_per_areole": ends / areoles.n_areoles if areoles.n_areoles else math.nan,
+        "junction_degree": {str(degree): share for degree, share in degrees.items()},
+        **measured.section_numbers(),
+        "density_x_sqrt_areole": density * math.sqrt(areoles.mean_area),
+        **measured.distance_numbers(density),
+        **measured.width_numbers(),
     }
 
 
-def _known(value: float) -> float | None:
-    """Give None for a number that is not one, since JSON has no nan."""
-    return None if math.isnan(value) else value
+def _of_stem(network: VeinNetwork) -> Numbers:
+    """Give the numbers of veins in space under the same keys, in the same order."""
+    nothing = RealNetwork.from_edges(np.zeros((0, 2)), np.zeros((0, 2), dtype=np.int32)).network
+    blade = {"blade_length": None, "blade_area": None}
+    keys = _numbers(nothing, measure(find_sections(nothing), None), 0.0, blade)
+    components = count_components(network)
+    degrees = junction_degree(network)
+    return dict.fromkeys(keys) | {
+        "nodes": network.n_vein_nodes,
+        "segments": network.n_segments,
+        "components": components,
+        "cycles": count_cycles(network, components=components),
+        "vein_length": vein_length(network),
+        "free_ends": len(free_ends(network)),
+        "junction_degree": {str(degree): share for degree, share in degrees.items()},
+    }
+
+
+POWERS = {
+    "blade_length": 1,
+    "blade_area": 2,
+    "enclosed_area": 2,
+    "vein_length": 1,
+    "vein_density": -1,
+    "areole_area_mean": 2,
+    "section_length_mean": 1,
+    "distance_to_vein_mean": 1,
+    "distance_to_vein_median": 1,
+    "distance_to_vein_p95": 1,
+    "width_mean": 1,
+    "length": 1,
+    "length_mean": 1,
+}
+"""Power of a length that a number is; all others have no unit."""
+
+
+def _in_unit(numbers: Numbers, scale: float) -> Numbers:
+    """Give lengths in a unit of which one D is so many; None for what is no number."""
+    found: Numbers = {}
+    for key, value in numbers.items():
+        if isinstance(value, dict):
+            found[key] = _in_unit(value, scale)
+        elif isinstance(value, float):
+            scaled = value * scale ** POWERS.get(key, 0)
+            found[key] = scaled if math.isfinite(scaled) else None
+        else:
+            found[key] = value
+    return found

@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from vasc import kernels
 from vasc.arrays import Ids
 from vasc.network import Origin, VeinNetwork
 
@@ -20,18 +21,7 @@ def component_labels(network: VeinNetwork) -> Ids:
     ndarray of shape (n,), int32
         Labels 0 ... c-1; a node without segments is a component of its own.
     """
-    if network.n_nodes == 0:
-        return np.zeros(0, dtype=np.int32)
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    ends = network.segments.T
-    links = coo_array(
-        (np.ones(network.n_segments, dtype=np.int8), (ends[0], ends[1])),
-        shape=(network.n_nodes, network.n_nodes),
-    )
-    labels: Ids = connected_components(links, directed=False)[1]
-    return labels
+    return kernels.components.component_labels(network.segments, network.n_nodes)
 
 
 def count_components(network: VeinNetwork) -> int:

@@ -16,7 +16,7 @@ def animate(
     every: Annotated[
         int | None, typer.Option("--every", min=1, help="Draw every so many steps.")
     ] = None,
-    color: Color = "width",
+    color: Color = None,
     sources: WithSources = False,
     scale_bar: ScaleBar = True,
     force: Force = False,

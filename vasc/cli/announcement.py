@@ -5,11 +5,13 @@ import sys
 import typer
 
 from vasc.cli.failures import complain
+from vasc.cli.printing import file_size
 from vasc.cli.progress import ProgressLine
 from vasc.config import Experiment
 from vasc.config.regime import regime
 from vasc.state import State
 from vasc.streams import Streams
+from vasc.timeline.tissues import n_bytes_a_step
 
 
 class Announcement:
@@ -39,12 +41,34 @@ class Announcement:
         self.progress.clear()
         parameters = self.experiment.parameters
         expected = regime(parameters)
-        growth = getattr(parameters, "growth", None)
-        what = "vasculature" if growth is None else f"venation, {growth.kind} growth"
-        typer.echo(f"{self.experiment.name}: {self.experiment.kind} {what}, seed {parameters.seed}")
-        for sentence in expected.sentences:
+        what = _description(self.experiment)
+        typer.echo(f"{self.experiment.name}: {what}, seed {parameters.seed}")
+        for sentence in [*_tissue_sentences(state), *expected.sentences]:
             typer.echo(f"  {sentence}")
         # before the warnings, which go another way
         sys.stdout.flush()
         for warning in expected.warnings:
             complain(f"warning: {warning}")
+
+
+def _description(experiment: Experiment) -> str:
+    """Give the kind of an experiment in words."""
+    growth = getattr(experiment.parameters, "growth", None)
+    if growth is not None:
+        return f"{experiment.kind} venation, {growth.kind} growth"
+    if experiment.kind == "stem":
+        return "stem vasculature"
+    transport = getattr(experiment.parameters, "transport", None)
+    return experiment.kind + ("" if transport is None else f", {transport.kind} transport")
+
+
+def _tissue_sentences(state: State) -> list[str]:
+    """Say how large a tissue is, and how large its record will be; nothing without cells."""
+    if state.tissue is None:
+        return []
+    n_bytes = n_bytes_a_step(state.tissue.n_cells, state.tissue.n_walls)
+    return [
+        f"{state.tissue.n_cells:,} cells, {state.tissue.n_walls:,} walls",
+        f"each step takes up to {file_size(n_bytes)} of the file,"
+        f" 100 steps up to {file_size(100 * n_bytes)}, mostly two thirds of that",
+    ]

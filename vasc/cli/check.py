@@ -5,12 +5,16 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from vasc.cli.options import AsJson, Force, RunFile
+from vasc.cli.options import AsJson, Force, RunFile, Step
 
 if TYPE_CHECKING:
     from vasc.validation.arabidopsis import SequenceReport
 
-EXAMPLES = ("vasc check sequence arabidopsis.h5", "vasc check connectivity stem.h5")
+EXAMPLES = (
+    "vasc check sequence arabidopsis.h5",
+    "vasc check connectivity stem.h5",
+    "vasc check strand canals.h5",
+)
 """Examples of the group."""
 
 SEQUENCE_EXAMPLES = (
@@ -24,6 +28,12 @@ CONNECTIVITY_EXAMPLES = (
     "vasc check connectivity stem.h5 --json",
 )
 """Examples of ``vasc check connectivity``."""
+
+STRAND_EXAMPLES = (
+    "vasc check strand canals.h5",
+    "vasc check strand canals.h5 --source 0 --json",
+)
+"""Examples of ``vasc check strand``."""
 
 WORDS = {True: "pass", False: "FAIL", None: "open"}
 """What a verdict is called in the table."""
@@ -149,5 +159,33 @@ def connectivity(
         print_json(report.as_json() | {"files": [] if output is None else [str(output)]})
     else:
         print_connectivity(report, path, output)
+    if not report.passed:
+        raise typer.Exit(1)
+
+
+def strand(
+    path: RunFile,
+    source: Annotated[
+        int | None, typer.Option("--source", min=0, help="A source; the newest if left out.")
+    ] = None,
+    step: Step = -1,
+    as_json: AsJson = False,
+) -> None:
+    """Read to which vein the canal of a source leads, and whether that is the nearest.
+
+    A canal that has become a vein by the step is read when it did. Exit code 1 if there is
+    none; one that leads to another vein than the nearest is no failure.
+    """
+    from vasc.cli.printing import print_json
+    from vasc.cli.strand import print_strand
+    from vasc.timeline import Timeline
+    from vasc.validation.strands import check_strand
+
+    with Timeline(path) as timeline:
+        report = check_strand(timeline, source, step)
+    if as_json:
+        print_json(report.as_json())
+    else:
+        print_strand(report, path)
     if not report.passed:
         raise typer.Exit(1)

@@ -1,12 +1,19 @@
-"""``vasc export``: a solid model of a recorded stem."""
+"""``vasc export``: a recorded run for other programs, or a tissue cut from it."""
+
+from typing import Annotated
 
 import typer
 
 from vasc.cli.options import AsJson, Force, Output, RunFile, Step
 
 EXAMPLES = (
-    "vasc export stem-golden-5-8.h5 -o stem.ply",
-    "vasc export stem-golden-5-8.h5 -o young.glb --step 100",
+    "vasc export poplar-leaf.h5 -o leaf.svg",
+    "vasc export poplar-leaf.h5 -o young.geojson --step 100",
+    "vasc export poplar-leaf.h5 -o tables.csv",
+    "vasc export poplar-leaf.h5 -o growth.pvd --every 20",
+    "vasc export sweetgum-leaf.h5 -o leaf.swc",
+    "vasc export stem-golden-5-8.h5 -o stem.glb",
+    "vasc export poplar-leaf.h5 -o tissue.toml --step 60 --cell 2",
 )
 
 
@@ -14,16 +21,50 @@ def export(
     path: RunFile,
     output: Output,
     step: Step = -1,
+    every: Annotated[
+        int | None,
+        typer.Option("--every", min=1, help="Of a series (pvd): every so many steps."),
+    ] = None,
+    spanning_tree: Annotated[
+        bool,
+        typer.Option("--spanning-tree", help="Of swc and mtg: leave out where veins joined."),
+    ] = False,
+    cell: Annotated[
+        float | None,
+        typer.Option("--cell", metavar="D", help="Width of a cell of a tissue in D; by default 2."),
+    ] = None,
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
-    """Write strands and primordia of a stem as a solid model: ply, obj or glb."""
-    from vasc import export as solids
-    from vasc.cli.printing import print_json
-    from vasc.cli.run import check_picture
+    """Write a run for other programs; the suffix of FILE says as what.
 
-    check_picture(output, force=force)
-    file = solids.export(path, output, step)
+    graphml: graph of nodes and segments. geojson, wkt: outline and veins as shapes. svg: drawing,
+    veins of true width, a layer an order. csv: folder of tables. vtp, pvd: VTK PolyData, one step
+    or a series for ParaView. swc, mtg: trees, of runs whose veins do not join. ply, obj, glb, gltf:
+    solid model of the veins of a leaf or stem. toml: outline, veins and live sources of a leaf as
+    the config of a tissue, for `vasc run`.
+
+    Lengths are in D, or in the unit that the config gives; of a tissue, in widths of a cell.
+    """
+    from vasc import export as exports
+    from vasc.cli.printing import print_json
+    from vasc.cli.run import check_folder, check_picture
+    from vasc.errors import OutputError
+
+    is_tissue = output.suffix.lower() == exports.TISSUE_SUFFIX
+    if cell is not None and not is_tissue:
+        raise OutputError(f"{output}: --cell is for a tissue, {exports.TISSUE_SUFFIX}")
+    if is_tissue and (every is not None or spanning_tree):
+        raise OutputError(f"{output}: --every and --spanning-tree are not for a tissue")
+    if is_tissue:
+        check_picture(output, force=force)
+        width = exports.CELL if cell is None else cell
+        file = exports.export_tissue(path, output, step, cell=width)
+    else:
+        check_folder(output)
+        file = exports.export(
+            path, output, step, force=force, every=every, spanning_tree=spanning_tree
+        )
     if as_json:
         print_json({"files": [str(file)]})
     else:

@@ -8,6 +8,7 @@ from vasc.cli.options import AsJson, RunFile
 
 if TYPE_CHECKING:
     from vasc.timeline import Timeline
+    from vasc.timeline.areole_lineage import AreoleFate
 
 LONGEST_LIST = 12
 """Ids of a list that are shown to people; JSON holds all."""
@@ -17,28 +18,63 @@ EXAMPLES = (
     "vasc lineage poplar-leaf.h5 --node 1000",
     "vasc lineage poplar-leaf.h5 --source 10 --json",
     "vasc lineage arabidopsis-first-leaf.h5 --areole 0",
+    "vasc lineage poplar-leaf.h5 --competitors 10",
+    "vasc lineage poplar-leaf.h5 --life-table --csv",
 )
+
+# short names of what the options below are
+Node = typer.Option("--node", min=0, help="A vein node: its descent.")
+Source = typer.Option("--source", min=0, help="An auxin source: what became of it.")
+Areole = typer.Option("--areole", min=0, help="An areole: where it came from, how it was split.")
+Loop = typer.Option("--loop", min=0, help="A vein node: the loop in which its vein lies.")
+Competitors = typer.Option("--competitors", min=0, help="A source: the veins it ever attracted.")
+LifeTable = typer.Option("--life-table", help="Survival of sources against age.")
+Fates = typer.Option("--fates", help="What became of every source.")
+Births = typer.Option("--births", help="When veins of each order were born; all, as CSV or JSON.")
+Genealogy = typer.Option("--genealogy", help="Which areole was split from which.")
 
 
 def lineage(
     path: RunFile,
-    node: Annotated[int | None, typer.Option("--node", min=0, help="A vein node.")] = None,
-    source: Annotated[int | None, typer.Option("--source", min=0, help="An auxin source.")] = None,
-    areole: Annotated[int | None, typer.Option("--areole", min=0, help="An areole.")] = None,
+    node: Annotated[int | None, Node] = None,
+    source: Annotated[int | None, Source] = None,
+    areole: Annotated[int | None, Areole] = None,
+    loop: Annotated[int | None, Loop] = None,
+    competitors: Annotated[int | None, Competitors] = None,
+    life_table: Annotated[bool, LifeTable] = False,
+    fates: Annotated[bool, Fates] = False,
+    births: Annotated[bool, Births] = False,
+    genealogy: Annotated[bool, Genealogy] = False,
+    limit: Annotated[
+        int | None, typer.Option("--limit", min=0, help="At most that many rows of a table.")
+    ] = None,
+    as_csv: Annotated[bool, typer.Option("--csv", help="Write a table as CSV.")] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Tell where a vein node came from, or what became of a source or an areole."""
+    """Tell where a vein node came from, what became of a source or an areole; tables of all."""
+    from vasc.cli import lineage_tables
     from vasc.cli.printing import print_json, print_pairs
     from vasc.timeline import Timeline
 
+    ids = ((node_lineage, node), (source_fate, source), (areole_fate, areole), (vein_loop, loop))
+    flags = {
+        "life_table": life_table,
+        "fates": fates,
+        "births": births,
+        "areoles": genealogy,
+        "competitors": competitors is not None,
+    }
+    asked = [(tell, row) for tell, row in ids if row is not None]
+    tables = [name for name, is_asked in flags.items() if is_asked]
+    if len(asked) + len(tables) != 1:
+        raise typer.BadParameter("give one of --node ID, --source ID and --areole ID, or one table")
+    if as_csv and (as_json or asked):
+        raise typer.BadParameter("--csv is for tables, and excludes --json")
     with Timeline(path) as timeline:
-        asked = [
-            (tell, row)
-            for tell, row in ((node_lineage, node), (source_fate, source), (areole_fate, areole))
-            if row is not None
-        ]
-        if len(asked) != 1:
-            raise typer.BadParameter("give one of --node ID, --source ID and --areole ID")
+        if tables:
+            table = lineage_tables.asked_for(timeline, tables[0], competitors)
+            lineage_tables.write(tables[0], table, limit, as_csv=as_csv, as_json=as_json)
+            return
         tell, row = asked[0]
         found = tell(timeline, row)
     if as_json:
@@ -85,8 +121,6 @@ def source_fate(timeline: "Timeline", source: int) -> dict[str, Any]:
 def areole_fate(timeline: "Timeline", areole: int) -> dict[str, Any]:
     """Give what became of an areole, in JSON values; what did not happen is None."""
     fate = timeline.lineage.areole(areole)
-    areas = timeline.areole_areas()
-    own = areas["area"][areas["areole"] == areole].tolist()
     return {
         "areole": areole,
         "birth": fate.birth,
@@ -98,9 +132,33 @@ def areole_fate(timeline: "Timeline", areole: int) -> dict[str, Any]:
         "sources": fate.sources.tolist(),
         "drained": [_known(step) for step in fate.drained.tolist()],
         "blind_ends": fate.blind_ends.tolist(),
-        "area_at_birth": own[0] if own else None,
-        "area_at_end": own[-1] if own else None,
+        **_areas(timeline, fate),
     }
+
+
+def vein_loop(timeline: "Timeline", node: int) -> dict[str, Any]:
+    """Give the loop in which the vein of a node lies, in JSON values; open tissue is None."""
+    found = timeline.lineage.loop_of(node)
+    return {
+        "node": node,
+        "vein": found.vein,
+        "order": found.order,
+        "areole": _known(found.areole),
+        "first_order_loop": _known(found.first_order),
+        "ancestors": list(found.ancestors),
+    }
+
+
+def _areas(timeline: "Timeline", fate: "AreoleFate") -> dict[str, float | None]:
+    """Give the area of an areole when it was born and when it was last whole."""
+    from vasc.timeline.areas import area_of
+
+    last = timeline.last_step if fate.split < 0 else fate.split - 1
+    # a part may be split in the step in which it is born; and not all models record areoles
+    if last < fate.birth or not timeline.n_rows("areoles"):
+        return {"area_at_birth": None, "area_at_end": None}
+    steps = {"area_at_birth": fate.birth, "area_at_end": last}
+    return {name: area_of(timeline, fate.areole, step) for name, step in steps.items()}
 
 
 def _known(number: int) -> int | None:

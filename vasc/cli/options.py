@@ -30,7 +30,12 @@ MoreSteps = Annotated[
 ]
 
 Color = Annotated[
-    str, typer.Option("--color", help="One of width, order, age, source, kind, state.")
+    str | None,
+    typer.Option(
+        "--color",
+        help="One of width, order, age, source, kind, state. Of a run on a tissue also"
+        " concentration, its default, flux, carriers, role.",
+    ),
 ]
 
 WithSources = Annotated[bool, typer.Option("--sources", help="Draw the live sources, too.")]

@@ -9,6 +9,7 @@ import typer
 from vasc.cli import (
     animate,
     check,
+    compare,
     configs,
     events,
     export,
@@ -35,6 +36,7 @@ VERBS = (
     events,
     lineage,
     stats,
+    compare,
     render,
     animate,
     export,
@@ -48,7 +50,11 @@ VERBS = (
 GROUPS = (
     (
         check,
-        {"sequence": check.SEQUENCE_EXAMPLES, "connectivity": check.CONNECTIVITY_EXAMPLES},
+        {
+            "sequence": check.SEQUENCE_EXAMPLES,
+            "connectivity": check.CONNECTIVITY_EXAMPLES,
+            "strand": check.STRAND_EXAMPLES,
+        },
     ),
 )
 

@@ -1,15 +1,20 @@
 """``vasc render``: a picture of a recorded leaf or stem."""
 
-from typing import Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from vasc.cli.options import AsJson, Color, Force, Output, RunFile, ScaleBar, Steps, WithSources
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 EXAMPLES = (
     "vasc render poplar-leaf.h5 -o young.pdf --step 500 --color age",
     "vasc render poplar-leaf.h5 -o growth.png --growth --step 0 --step 200 --step 500",
     "vasc render stem-golden-5-8.h5 -o flat.png --unroll",
+    "vasc render arabidopsis-first-leaf.h5 -o tree.png --genealogy",
 )
 
 
@@ -17,7 +22,7 @@ def render(
     path: RunFile,
     output: Output,
     step: Steps = None,
-    color: Color = "width",
+    color: Color = None,
     sources: WithSources = False,
     scale_bar: ScaleBar = True,
     growth: Annotated[
@@ -26,23 +31,36 @@ def render(
     unroll: Annotated[
         bool, typer.Option("--unroll", help="Draw a stem split along a line and laid flat.")
     ] = False,
+    genealogy: Annotated[
+        bool, typer.Option("--genealogy", help="Draw areoles by first-order loop, and their trees.")
+    ] = False,
+    births: Annotated[
+        bool, typer.Option("--births", help="Draw births of veins: height above the base by step.")
+    ] = False,
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
-    """Draw a leaf or stem at its last step or another one, as png, svg or pdf."""
+    """Draw a leaf, stem or tissue at its last step or another one, as png, svg or pdf."""
     from vasc import render as drawing
     from vasc.cli.printing import print_json
     from vasc.cli.run import check_picture
+    from vasc.timeline import Timeline
 
     check_picture(output, force=force)
-    if growth and unroll:
-        raise typer.BadParameter("--growth and --unroll exclude each other")
+    forms = {"--growth": growth, "--unroll": unroll, "--genealogy": genealogy, "--births": births}
+    chosen = [name for name, is_chosen in forms.items() if is_chosen]
+    if len(chosen) > 1:
+        raise typer.BadParameter(f"{chosen[0]} and {chosen[1]} exclude each other")
     if growth:
         from vasc.cli.growing import growth_figure
-        from vasc.render.saving import PICTURE_SUFFIXES, checked_output
 
-        file = checked_output(output, PICTURE_SUFFIXES)
-        drawing.save(growth_figure(path, step or []), file)
+        file = save_figure(growth_figure(path, step or []), output)
+    elif genealogy or births:
+        if len(step or []) > 1:
+            raise typer.BadParameter(f"{chosen[0]} shows one step, give --step once")
+        draw = drawing.draw_genealogy if genealogy else drawing.draw_births
+        with Timeline(path) as timeline:
+            file = save_figure(draw(timeline, *(step or [])), output)
     else:
         file = drawing.render(
             path,
@@ -57,3 +75,12 @@ def render(
         print_json({"files": [str(file)]})
     else:
         typer.echo(f"written: {file}")
+
+
+def save_figure(figure: "Figure", output: Path) -> Path:
+    """Write a figure, and give the path of the file."""
+    from vasc.render.saving import PICTURE_SUFFIXES, checked_output, save
+
+    file = checked_output(output, PICTURE_SUFFIXES)
+    save(figure, file)
+    return file

@@ -50,6 +50,7 @@ def described(timeline: "Timeline") -> dict[str, Any]:
     placed = timeline.n_rows("sources")
     sessions = [session.get("wall_seconds", {}) for session in timeline.provenance]
     frames = timeline.frames
+    config = {key: value for key, value in timeline.config.items() if key != FILES_KEY}
     return {
         "format": FORMAT,
         "version": timeline.version,
@@ -64,10 +65,19 @@ def described(timeline: "Timeline") -> dict[str, Any]:
         "segments": timeline.n_rows("segments") - refined,
         "sources_placed": placed,
         "sources_active": placed - counts.get("source_removed", 0),
+        **_size_of_tissue(timeline),
         "events": counts,
         "wall_seconds": sum(float(seconds.get("total", 0.0)) for seconds in sessions),
-        "config": {key: value for key, value in timeline.config.items() if key != FILES_KEY},
+        "config": config,
+        "evidence": _evidence(config),
     }
+
+
+def _size_of_tissue(timeline: "Timeline") -> dict[str, int]:
+    """Give the number of cells and walls; nothing in a run without cells."""
+    if timeline.tissue is None:
+        return {}
+    return {"cells": timeline.tissue.n_cells, "walls": timeline.tissue.n_walls}
 
 
 def _print(timeline: "Timeline", path: Path) -> None:
@@ -81,6 +91,8 @@ def _print(timeline: "Timeline", path: Path) -> None:
     typer.echo(f"{path}: {config.get('title') or 'untitled'}")
     if config.get("reference"):
         typer.echo(f"after {config['reference']}")
+    for sentence in found.pop("evidence"):
+        typer.echo(f"equations: {sentence}")
     ended = REASONS.get(reason, reason) if reason else f"not yet; `vasc resume {path}` goes on"
     typer.echo()
     print_pairs(found | {"ended": ended, "size": file_size(path.stat().st_size)})
@@ -95,6 +107,18 @@ def _print(timeline: "Timeline", path: Path) -> None:
         )
     typer.echo("\nconfig")
     typer.echo("".join(f"  {line}\n" for line in timeline.config_toml.splitlines()), nl=False)
+
+
+def _evidence(config: dict[str, Any]) -> list[str]:
+    """Say where the equations of a recorded run are from; nothing if its config is of no use."""
+    from vasc.config.schema import parameters_from
+    from vasc.errors import ConfigError
+    from vasc.parameters import evidence
+
+    try:
+        return evidence(parameters_from(config))
+    except ConfigError:
+        return []
 
 
 def _check(path: Path, *, as_json: bool) -> None:

@@ -18,6 +18,7 @@ REASONS = {
     "nothing_pulled": "growth and placement are over, the sources left pull no vein",
     "livelock": "livelock: veins grow without coming nearer to any source",
     "step_limit": "the last step of the config was reached",
+    "at_rest": "no source is to come, and the tissue is at rest",
 }
 
 
@@ -29,6 +30,7 @@ def print_summary(summary: "Summary", files: list[Path], *, as_json: bool) -> No
     print_pairs(
         {
             "steps": summary.steps,
+            **_cells(summary),
             "nodes": summary.nodes,
             "segments": summary.segments,
             **_sources(summary),
@@ -39,8 +41,24 @@ def print_summary(summary: "Summary", files: list[Path], *, as_json: bool) -> No
     )
 
 
+def _cells(summary: "Summary") -> dict[str, Any]:
+    """Give the time and the size of a tissue; nothing in a run without cells."""
+    if summary.tissue is None:
+        return {}
+    cells = f"{summary.tissue.cells:,}, with {summary.tissue.walls:,} walls between them"
+    # in the unit of the model: turnover times of a wall, seconds, or steps
+    return {"time": f"{summary.time:.6g}", "cells": cells}
+
+
 def _sources(summary: "Summary") -> dict[str, Any]:
     """Give what became of sources: those of a leaf are drained, primordia stay."""
+    if summary.tissue is not None:
+        connected = f"{summary.tissue.connected:,} connected to a vein"
+        return {
+            "sources": f"{summary.sources_placed:,} placed, {connected}",
+            "rounds unsettled": summary.tissue.unsettled,
+            "vortices": summary.tissue.vortices,
+        }
     joins = f"{summary.joins:,}, of which {summary.loops:,} closed a loop"
     if summary.nodes_outside is None:
         return {"primordia": summary.sources_placed, "joins": joins}
@@ -56,6 +74,8 @@ def json_summary(summary: "Summary", files: list[Path]) -> dict[str, Any]:
     """Give a summary as JSON values."""
     values = asdict(summary)
     del values["output"], values["is_interrupted"]
+    # leaves and stems have none of it
+    values |= values.pop("tissue") or {}
     return values | {"complete": summary.stop_reason is not None, "files": list(map(str, files))}
 
 
@@ -65,6 +85,8 @@ def reason_text(summary: "Summary") -> str:
         return f"not finished; `vasc resume {summary.output}` goes on"
     if summary.nodes_outside is None and summary.stop_reason == "no_sources":
         return "all primordia have appeared and are connected"
+    if summary.tissue is not None and summary.tissue.unsettled and summary.stop_reason == "at_rest":
+        return "no source is to come, and the tissue is at rest or had its time to settle"
     return REASONS.get(summary.stop_reason, summary.stop_reason)
 
 

@@ -13,10 +13,11 @@ from vasc.cli.run import check_picture
 EXAMPLES = (
     "vasc validate growth",
     "vasc validate transitions -o transitions.png",
+    "vasc validate canalization --n 200 -o canals.json",
     "vasc validate --json",
 )
 
-SUITES = ("growth", "stem", "transitions")
+SUITES = ("growth", "stem", "transitions", "canalization")
 
 
 def validate(
@@ -27,45 +28,93 @@ def validate(
     output: Annotated[
         Path | None,
         typer.Option(
-            "--output", "-o", metavar="PICTURE", help="Draw the transitions: png, svg or pdf."
+            "--output",
+            "-o",
+            metavar="FILE",
+            help="Draw the transitions: png, svg, pdf; or write what canalization found: json.",
+        ),
+    ] = None,
+    n: Annotated[
+        int | None,
+        typer.Option(
+            "--n",
+            min=5,
+            max=10_000,
+            help="Scenarios a rate of canalization: 20 by default; from 200 on of all protocols.",
         ),
     ] = None,
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
-    """Run the validation suites, about a minute each; exit code 1 if a check fails.
+    """Run the validation suites, a minute or two each; exit code 1 if a check fails.
 
     growth: which growth of the first leaf of Arabidopsis makes which sequence of veins.
     stem: what the veins of the stems of the thesis connect.
     transitions: what stems connect over the ratio of radius to rise, against the predicted
     thresholds.
+    canalization: whether canals reach the vein nodes that the open and the closed rule of
+    geometry predict, by which model, and where not.
     """
+    from vasc.cli.canals import print_canalization
     from vasc.cli.printing import print_json
     from vasc.errors import ConfigError
 
     if suite is not None and suite not in SUITES:
         raise ConfigError(f"suite = {suite!r}: must be one of {', '.join(SUITES)}")
+    if n is not None and suite not in (None, "canalization"):
+        raise ConfigError(f"--n {n}: only the suite canalization draws scenarios")
     if output is not None:
-        if suite not in (None, "transitions"):
-            raise ConfigError(f"--output {output}: only the suite transitions is drawn")
-        check_picture(output, force=force)
-    suites = [run() for name, run in _suites().items() if suite in (None, name)]
+        _check_output(output, suite, force=force)
+    suites = [run() for name, run in _suites(n).items() if suite in (None, name)]
     if output is not None:
-        from vasc.render import draw_transitions, save
-
-        save(draw_transitions(suites[-1]["stems"], suites[-1]["thresholds"]), output)
+        _write(output, suites)
     passed = all(check["pass"] for one in suites for check in one["checks"])
     if as_json:
         print_json({"suites": suites, "pass": passed})
     else:
         for one in suites:
-            (_print_growth if one["name"] == "growth" else _print_stem)(one)
+            (print_canalization if one["name"] == "canalization" else PRINTED[one["name"]])(one)
     if not passed:
         raise typer.Exit(1)
 
 
-def _suites() -> dict[str, Callable[[], dict[str, Any]]]:
+def _check_output(output: Path, suite: str | None, *, force: bool) -> None:
+    """Refuse a file that the suites make nothing for, or that exists."""
+    from vasc.errors import ConfigError
+
+    if suite == "canalization":
+        if output.suffix != ".json":
+            raise ConfigError(f"--output {output}: tables of canalization are written as .json")
+        if output.exists() and not force:
+            raise ConfigError(f"{output} exists; --force replaces it")
+        if not output.parent.is_dir():
+            raise ConfigError(f"--output {output}: there is no folder {output.parent}")
+        return
+    if suite not in (None, "transitions"):
+        raise ConfigError(
+            f"--output {output}: the suite transitions is drawn, the tables of canalization written"
+        )
+    check_picture(output, force=force)
+
+
+def _write(output: Path, suites: list[dict[str, Any]]) -> None:
+    """Write the tables of canalization, or draw the transitions."""
+    found = {one["name"]: one for one in suites}
+    if output.suffix == ".json":
+        import json
+
+        output.write_text(json.dumps(found["canalization"], indent=2, allow_nan=False) + "\n")
+        return
+    from vasc.render import draw_transitions, save
+
+    save(
+        draw_transitions(found["transitions"]["stems"], found["transitions"]["thresholds"]), output
+    )
+
+
+def _suites(n: int | None) -> dict[str, Callable[[], dict[str, Any]]]:
     """Give the suites, each ready to run."""
+    from vasc.validation.canalization.suite import DEFAULT, validate_canalization
     from vasc.validation.growth_variants import validate_growth
     from vasc.validation.stem_suite import validate_stem
     from vasc.validation.stem_transitions import validate_transitions
@@ -73,7 +122,13 @@ def _suites() -> dict[str, Callable[[], dict[str, Any]]]:
     def progress(name: str) -> None:
         typer.echo(f"running: {name}", err=True)
 
-    found = (validate_growth, validate_stem, validate_transitions)
+    canals = partial(validate_canalization, n=DEFAULT if n is None else n)
+    found: tuple[Callable[..., dict[str, Any]], ...] = (
+        validate_growth,
+        validate_stem,
+        validate_transitions,
+        canals,
+    )
     return {name: partial(run, progress) for name, run in zip(SUITES, found, strict=True)}
 
 
@@ -112,3 +167,11 @@ def _print_growth(suite: dict) -> None:
         for check in suite["checks"]
     ]
     print_table(("growth", "verdict", "fails", "expected to fail"), rows)
+
+
+PRINTED: dict[str, Callable[[dict], None]] = {
+    "growth": _print_growth,
+    "stem": _print_stem,
+    "transitions": _print_stem,
+}
+"""How the suites without transport are written for people."""

@@ -205,9 +205,16 @@ def _checked(tables: dict[str, Any], folder: Path, label: str) -> "LeafVenation"
 
 def _geometry_problems(parameters: Any, folder: Path) -> list[str]:
     """Describe a blade that cannot be made, or is of a size that no run can hold."""
-    from vasc.models.stem import StemVasculature
+    from vasc.models import LeafVenation
+    from vasc.models.on_tissue import TissueExperiment
 
-    if isinstance(parameters, StemVasculature):
+    try:
+        if isinstance(parameters, TissueExperiment):
+            parameters.domain.outline(folder)
+            return []
+    except OutlineError as error:
+        return [str(error)]
+    if not isinstance(parameters, LeafVenation):
         return []  # its own rules have judged its size
     if problems := size_problems(parameters):
         return problems

@@ -25,6 +25,12 @@ ISOGONIC_CLASSES = (
 )
 """Pattern of an isogonically growing leaf by T, each up to the number before it."""
 
+GAIN_PER_CELL = 8.0
+"""Gain below which no canal forms by facilitated diffusion, for each cell of its way."""
+
+WIDTH = 0.7
+"""Cells across a canal, over the root of gain over saturation (facilitated diffusion)."""
+
 MARGINAL_RANGE = (0.1, 6.0)
 ISOGONIC_RANGE = (0.1, 5.0)
 DART_RANGE = (0.002, 2.0)
@@ -40,7 +46,8 @@ class Regime:
     numbers : dict of str to float
         ``margin_speed`` (v, margin speed over vein speed), or ``crossing`` (T, the
         fraction of the initial blade a vein can cross during growth), and
-        ``darts_per_spacing`` (rho b^2, darts per squared birth distance and step).
+        ``darts_per_spacing`` (rho b^2, darts per squared birth distance and step). In a
+        tissue ``gain`` (A), ``saturation`` or ``pool``, and ``background`` (q).
     sentences : list of str
         One a number: what it is and what it lets expect.
     warnings : list of str
@@ -53,7 +60,7 @@ class Regime:
 
 
 def regime(parameters: "LeafVenation") -> Regime:
-    """Give the numbers that decide the pattern of a leaf.
+    """Give the numbers that decide the pattern of a leaf, or of canals in a tissue.
 
     Parameters
     ----------
@@ -74,6 +81,9 @@ def regime(parameters: "LeafVenation") -> Regime:
     found = Regime()
     growth: Any = getattr(parameters, "growth", None)
     if growth is None:
+        transport: Any = getattr(parameters, "transport", None)
+        if hasattr(transport, "gain"):
+            _canalization(transport, getattr(parameters, "background", 0.0), found)
         return found
     if growth.kind == "marginal":
         _marginal(growth.length_per_step / parameters.extension.segment_length, found)
@@ -81,8 +91,8 @@ def regime(parameters: "LeafVenation") -> Regime:
         _isogonic(crossing(parameters), found)
     elif growth.kind == "none":
         found.sentences.append("no growth: veins fan out from the petiole toward all sources")
-    placement: Any = parameters.placement
-    if placement.kind == "darts":
+    placement: Any = getattr(parameters, "placement", None)
+    if placement is not None and placement.kind == "darts":
         _darts(placement.density * placement.birth_distance_sources**2, found)
     return found
 
@@ -158,6 +168,38 @@ def _darts(number: float, found: Regime) -> None:
             f"rho b^2 = {number:.3g} is above {high:g}: nearly all darts are thrown in vain;"
             " lower placement.density"
         )
+
+
+def _canalization(transport: Any, background: float, found: Regime) -> None:
+    """Judge feedback against saturation: whether canals form, and how wide."""
+    gain, most = float(transport.gain), float(getattr(transport, "most", math.nan))
+    found.numbers["gain"] = gain
+    if transport.kind == "facilitated":
+        reach = gain / GAIN_PER_CELL
+        expected = f"canals form over ways of about {reach:.3g} cells and less"
+    else:
+        expected = "carriers gather where auxin leaves a cell"
+    found.sentences.append(f"A = {gain:g} (gain of the feedback): {expected}")
+    if transport.kind == "pool":
+        found.numbers["pool"] = transport.pool
+        found.sentences.append(f"P_tot = {transport.pool:g} (carriers of a cell): walls compete")
+    elif math.isinf(most):
+        found.sentences.append("no saturation: nothing limits what a wall carries")
+        found.warnings.append(
+            "transport.saturation = 'none': flux in closed loops may grow without bound;"
+            " the run then ends there"
+        )
+    else:
+        files = max(1.0, WIDTH * math.sqrt(gain / most))
+        found.numbers["saturation"] = most
+        found.sentences.append(
+            f"A / saturation = {gain / most:.3g}, saturation = {most:g}: a canal is about"
+            f" {files:.2g} cell{'s' if files >= 1.05 else ''} wide"
+        )
+    found.numbers["background"] = background
+    found.sentences.append(
+        f"q = {background:g} (what ground cells make together, over what a source makes)"
+    )
 
 
 def _class_of(number: float, classes: tuple[tuple[float, str], ...]) -> str:

@@ -7,6 +7,7 @@ from vasc.domain.seeds import SeedRowParameters
 from vasc.domain.shapes import SHAPES
 from vasc.domain.stem import StemParameters
 from vasc.domain.teeth import TeethParameters
+from vasc.domain.tissue import Tissue
 
 __all__ = [
     "SHAPES",
@@ -15,5 +16,6 @@ __all__ = [
     "SeedRowParameters",
     "StemParameters",
     "TeethParameters",
+    "Tissue",
     "read_outline",
 ]

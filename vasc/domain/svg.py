@@ -16,6 +16,7 @@ CURVE_STEPS = 48
 """Straight pieces that stand for one curve of a path."""
 NOT_DRAWN = {"defs", "symbol", "clipPath", "mask", "pattern", "marker", "metadata"}
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+EMPTY = re.compile(r"(?:^|;)\s*fill\s*:\s*none\s*(?:;|$)")
 TRANSFORM = re.compile(r"\s*(\w+)\s*\(([^()]*)\)[\s,]*")
 
 Attributes = dict[str, str]
@@ -188,7 +189,7 @@ def _path(attributes: Attributes) -> Iterator[Points]:
     from svg.path import Close, Line, Move, parse_path
 
     text = attributes.get("d", "").strip()
-    if not text:
+    if not text or _is_mere_line(attributes, text):
         return
     if sum(1 for _ in NUMBER.finditer(text)) > 2 * MAX_POINTS:
         raise OutlineError(f"outline: a path has more than {MAX_POINTS:,} points")
@@ -215,6 +216,12 @@ def _path(attributes: Attributes) -> Iterator[Points]:
         yield from _finished(points, is_closed)
     except (ValueError, IndexError, TypeError, AssertionError, ArithmeticError) as error:
         raise OutlineError(f"outline: path '{text[:40]}' cannot be read: {error}") from error
+
+
+def _is_mere_line(attributes: Attributes, text: str) -> bool:
+    """Tell whether a path is drawn as a line: it is marked as not filled and nowhere closed."""
+    is_empty = attributes.get("fill") == "none" or EMPTY.search(attributes.get("style", ""))
+    return bool(is_empty) and "z" not in text.lower()
 
 
 def _finished(points: list[complex], is_closed: bool) -> Iterator[Points]:

@@ -1,6 +1,6 @@
 """Surfaces of strands and primordia: closed tubes and spheres of triangles."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,12 +29,12 @@ Faces = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class StemMesh:
-    """A stem as triangles: bodies one after another, each of them closed.
+    """Veins as triangles: bodies one after another, each of them closed.
 
     Parameters
     ----------
     points : ndarray of shape (n, 3), float64
-        Corners, in D; the stem stands along the third axis.
+        Corners, in D or the unit of a run; a stem stands along the third axis.
     faces : ndarray of shape (m, 3), int64
         Rows of ``points``, counterclockwise as seen from outside.
     colors : ndarray of shape (n, 4), uint8
@@ -50,6 +50,10 @@ class StemMesh:
     colors: NDArray[np.uint8]
     bodies: NDArray[np.int64]
     n_tubes: int
+
+    def scaled(self, scale: float) -> "StemMesh":
+        """Give the same in another unit, of which D is ``scale``."""
+        return replace(self, points=self.points * scale)
 
 
 def mesh_of(positions: Points, segments: Ids, primordia: Ids) -> StemMesh:
@@ -76,6 +80,22 @@ def mesh_of(positions: Points, segments: Ids, primordia: Ids) -> StemMesh:
     tubes = [tube(positions[way], radii[way]) for way in ways(pairs)]
     centres = set_outward(positions[primordia], PRIMORDIUM_OUTWARD)
     spheres = [sphere(centre, PRIMORDIUM_RADIUS) for centre in centres]
+    return joined(tubes, spheres)
+
+
+def joined(tubes: list[tuple[Points, Faces]], spheres: list[tuple[Points, Faces]]) -> StemMesh:
+    """Give bodies as one model: tubes in the colour of veins, spheres in that of primordia.
+
+    Parameters
+    ----------
+    tubes, spheres : list of tuple of ndarray
+        Points, shape (n, 3), and faces, shape (m, 3), of each body.
+
+    Returns
+    -------
+    StemMesh
+        Without a face if there is no body.
+    """
     bodies = [*tubes, *spheres]
     counts = [len(faces) for _, faces in bodies]
     starts = np.cumsum([0, *(len(points) for points, _ in bodies)])

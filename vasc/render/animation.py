@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,14 +15,20 @@ from vasc.errors import OutputError, VascError
 from vasc.render.files import node_widths, open_run, widths_of
 from vasc.render.leaf import draw_leaf, fitted_widths, narrowest_of, view_of
 from vasc.render.saving import checked_output
-from vasc.render.styles import DPI, LeafStyle
+from vasc.render.styles import DPI, SOURCE_STATE_COLORS, TISSUE_COLOR_CHOICES, LeafStyle
+from vasc.render.tissue_files import chosen_color, tissue_figures
+from vasc.render.tissue_style import TissueStyle
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from PIL.Image import Image as Picture
 
     from vasc.timeline import Timeline
 
 FILM_SUFFIXES = (".mp4", ".gif")
+N_COLORS = 128
+"""Colours of a gif, besides those of marks."""
+MARKS = (TissueStyle.source, TissueStyle.sink, TissueStyle.arrow, *SOURCE_STATE_COLORS.values())
 Pixels = NDArray[np.uint8]
 """A picture, shape (height, width, 3)."""
 
@@ -54,7 +60,7 @@ def animate(
     output: str | Path,
     *,
     every: int | None = None,
-    color: str = "width",
+    color: str | None = None,
     widths: WidthParameters | None = None,
     sources: bool = False,
     scale_bar: bool = True,
@@ -62,7 +68,7 @@ def animate(
     film: Film | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Path:
-    """Write a film of a recorded leaf, seen at the scale of the last blade.
+    """Write a film of a recorded leaf or tissue, seen at the scale of the last blade.
 
     Parameters
     ----------
@@ -73,7 +79,7 @@ def animate(
     every : int, optional
         Draw every so many steps; ``film.n_pictures`` spread evenly if left out.
     color, sources, scale_bar, style
-        See :func:`vasc.render.draw_leaf`.
+        See :func:`vasc.render.render`.
     widths : WidthParameters, optional
         The widths of the run's config if left out. Radii left open are fitted
         to the last step and hold for the whole film.
@@ -106,34 +112,51 @@ def animate(
     with open_run(run) as timeline:
         if timeline.dimensions == 3:
             raise VascError(f"{timeline.path}: films are made of leaves; draw it with vasc render")
-        last = timeline.frame(-1)
-        narrowest = narrowest_of(last, color)
-        view = view_of(last.blade, style, side=film.pixels / DPI, narrowest=narrowest)
-        steps = chosen_steps(last.step, film.n_pictures, every)
-        asked = widths or widths_of(timeline)
-        stretched = node_widths(timeline, asked, steps)
-        settled = fitted_widths(last, asked, style, view, stretched.get(last.step))
-
-        def pictures() -> Iterator[Pixels]:
-            for count, step in enumerate(steps, start=1):
-                figure = draw_leaf(
-                    timeline.frame(step),
-                    color=color,
-                    widths=settled,
-                    node_widths=stretched.get(step),
-                    sources=sources,
-                    scale_bar=scale_bar,
-                    units=timeline.units,
-                    style=style,
-                    view=view,
-                    last_step=last.step,
-                )
-                yield _pixels(figure)
-                if progress is not None:
-                    progress(count, len(steps))
-
-        write(pictures(), output, film)
+        color = chosen_color(timeline, color)
+        steps = chosen_steps(timeline.last_step, film.n_pictures, every)
+        side = film.pixels / DPI
+        if color in TISSUE_COLOR_CHOICES:
+            figures = tissue_figures(timeline, steps, color, scale_bar, side)
+        else:
+            asked = widths or widths_of(timeline)
+            look = LeafLook(color, asked, sources, scale_bar, style, side)
+            figures = _leaf_figures(timeline, steps, look)
+        write(_told(map(_pixels, figures), len(steps), progress), output, film)
     return output
+
+
+class LeafLook(NamedTuple):
+    """How all leaves of a film are drawn: see :func:`vasc.render.draw_leaf`."""
+
+    color: str
+    widths: WidthParameters
+    sources: bool
+    scale_bar: bool
+    style: LeafStyle
+    side: float
+    """Longer side of the film, in inches."""
+
+
+def _leaf_figures(timeline: Timeline, steps: list[int], look: LeafLook) -> Iterator[Figure]:
+    """Draw leaves one after the other, at the scale and with the widths of the last."""
+    last = timeline.frame(-1)
+    narrowest = narrowest_of(last, look.color)
+    view = view_of(last.blade, look.style, side=look.side, narrowest=narrowest)
+    stretched = node_widths(timeline, look.widths, steps)
+    settled = fitted_widths(last, look.widths, look.style, view, stretched.get(last.step))
+    for step in steps:
+        yield draw_leaf(
+            timeline.frame(step),
+            color=look.color,
+            widths=settled,
+            node_widths=stretched.get(step),
+            sources=look.sources,
+            scale_bar=look.scale_bar,
+            units=timeline.units,
+            style=look.style,
+            view=view,
+            last_step=last.step,
+        )
 
 
 def chosen_steps(last: int, n_pictures: int, every: int | None = None) -> list[int]:
@@ -163,6 +186,16 @@ def chosen_steps(last: int, n_pictures: int, every: int | None = None) -> list[i
     if every is not None:
         return sorted({*range(0, last + 1, every), last})
     return np.unique(np.rint(np.linspace(0, last, max(n_pictures, 2))).astype(int)).tolist()
+
+
+def _told(
+    pictures: Iterator[Pixels], n_pictures: int, progress: Callable[[int, int], None] | None
+) -> Iterator[Pixels]:
+    """Pass pictures on, and tell after each how many there are."""
+    for count, picture in enumerate(pictures, start=1):
+        yield picture
+        if progress is not None:
+            progress(count, n_pictures)
 
 
 def _pixels(figure: Figure) -> Pixels:
@@ -215,9 +248,7 @@ def _write_gif(pictures: Iterator[Pixels], output: Path, film: Film) -> None:
     """Write pictures as a gif that repeats."""
     from PIL import Image
 
-    small = [
-        Image.fromarray(picture).quantize(128, dither=Image.Dither.NONE) for picture in pictures
-    ]
+    small = [_with_palette(Image.fromarray(picture)) for picture in pictures]
     pause = 1000 // film.pictures_per_second
     pauses = [pause] * (len(small) - 1) + [pause + round(1000 * film.rest)]
     unfinished = output.with_name(f".{output.stem}.unfinished.gif")
@@ -226,3 +257,15 @@ def _write_gif(pictures: Iterator[Pixels], output: Path, film: Film) -> None:
         unfinished.replace(output)
     finally:
         unfinished.unlink(missing_ok=True)
+
+
+def _with_palette(picture: Picture) -> Picture:
+    """Reduce a picture to the colours of a gif; those of small marks are kept as they are."""
+    from PIL import Image
+
+    chosen = picture.quantize(N_COLORS, dither=Image.Dither.NONE)
+    # where there are many shades of another colour, few pixels of a mark get none of their own
+    marks = [channel for color in MARKS for channel in bytes.fromhex(color[1:])]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([*(chosen.getpalette() or [])[: 3 * N_COLORS], *marks])
+    return picture.quantize(palette=palette, dither=Image.Dither.NONE)

@@ -21,9 +21,11 @@ from vasc.render.leaf import (
     view_at,
     view_of,
 )
+from vasc.render.panels import side_by_side
 from vasc.render.saving import PICTURE_SUFFIXES, checked_output, save
 from vasc.render.stems import only_step, render_stem
-from vasc.render.styles import DPI, INK, TEXT_SIZE, LeafStyle
+from vasc.render.styles import DPI, INK, TEXT_SIZE, TISSUE_COLOR_CHOICES, LeafStyle
+from vasc.render.tissue_files import chosen_color, draw_steps
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,7 +40,7 @@ def render(
     step: int = -1,
     *,
     steps: Sequence[int] | None = None,
-    color: str = "width",
+    color: str | None = None,
     widths: WidthParameters | None = None,
     sources: bool = False,
     scale_bar: bool = True,
@@ -46,7 +48,7 @@ def render(
     pixels: int = 1600,
     style: LeafStyle | None = None,
 ) -> Path:
-    """Write a picture of a recorded leaf or stem.
+    """Write a picture of a recorded leaf, stem or tissue.
 
     Parameters
     ----------
@@ -58,8 +60,12 @@ def render(
         The step to draw; -1 is the last.
     steps : sequence of int, optional
         Several steps, drawn side by side at one scale, instead of ``step``.
-    color, sources, scale_bar, style
-        See :func:`vasc.render.draw_leaf`.
+    color : str, optional
+        What colours tell: of veins as in :func:`vasc.render.draw_leaf`, by default their
+        width alone; of the cells of a tissue as in :func:`vasc.render.draw_tissue`, by
+        default auxin.
+    sources, scale_bar, style
+        See :func:`vasc.render.draw_leaf`; a tissue always shows its sources.
     widths : WidthParameters, optional
         The widths of the run's config if left out.
     unroll : bool
@@ -85,40 +91,40 @@ def render(
     output = checked_output(output, PICTURE_SUFFIXES)
     with open_run(run) as timeline:
         steps = [step] if steps is None else steps
+        color = chosen_color(timeline, color)
         if timeline.dimensions == 3:
             only = only_step(steps, color=color, sources=sources)
             return render_stem(
                 timeline, output, only, unroll=unroll, scale_bar=scale_bar, pixels=pixels
             )
         if unroll:
-            raise VascError(f"unroll: only a stem can be unrolled, not a {timeline.model!r} leaf")
-        widths = widths_of(timeline) if widths is None else widths
-        style = LeafStyle() if style is None else style
-        frames = [timeline.frame(at) for at in steps]
-        if not frames:
-            raise VascError("steps: expected at least one step, got none")
-        views = _views(frames, style, pixels / DPI, narrowest_of(frames[-1], color))
-        stretched = node_widths(timeline, widths, [frame.step for frame in frames])
-        last = frames[-1]
-        widths = fitted_widths(last, widths, style, views[-1], stretched.get(last.step))
-        figure, axes = _side_by_side(views, style)
-        for frame, view, ax in zip(frames, views, axes, strict=True):
-            draw_leaf(
-                frame,
-                ax,
-                color=color,
-                widths=widths,
-                node_widths=stretched.get(frame.step),
-                sources=sources,
-                scale_bar=scale_bar and frame is frames[0],
-                key=frame is frames[-1],
-                units=timeline.units,
-                style=style,
-                view=view,
-                last_step=max(each.step for each in frames),
-            )
-            if len(frames) > 1:
-                _write_step(ax, frame.step)
+            raise VascError(f"unroll: only a stem can be unrolled, not a {timeline.model!r} run")
+        frames = _frames_at(timeline, steps)
+        side = pixels / DPI
+        if color in TISSUE_COLOR_CHOICES:
+            figure = draw_steps(timeline, frames, color=color, scale_bar=scale_bar, side=side)
+        else:
+            widths = widths_of(timeline) if widths is None else widths
+            style = LeafStyle() if style is None else style
+            figure, axes, views = _laid_out(frames, color, style, side)
+            stretched = node_widths(timeline, widths, [frame.step for frame in frames])
+            last = frames[-1]
+            widths = fitted_widths(last, widths, style, views[-1], stretched.get(last.step))
+            for frame, view, ax in zip(frames, views, axes, strict=True):
+                draw_leaf(
+                    frame,
+                    ax,
+                    color=color,
+                    widths=widths,
+                    node_widths=stretched.get(frame.step),
+                    sources=sources,
+                    scale_bar=scale_bar and frame is frames[0],
+                    key=frame is last,
+                    units=timeline.units,
+                    style=style,
+                    view=view,
+                    last_step=max(each.step for each in frames),
+                )
         save(figure, output)
     return output
 
@@ -186,6 +192,25 @@ def _views(frames: Sequence[Frame], style: LeafStyle, side: float, last_width: f
     return [View((view.box[0], ground, view.box[2], view.box[3] + above), scale) for view in views]
 
 
+def _frames_at(timeline: Timeline, steps: Sequence[int]) -> list[Frame]:
+    """Give the frames of some steps; refuse none."""
+    if not steps:
+        raise VascError("steps: expected at least one step, got none")
+    return [timeline.frame(step) for step in steps]
+
+
+def _laid_out(
+    frames: Sequence[Frame], color: str, style: LeafStyle, side: float
+) -> tuple[Figure, list[Axes], list[View]]:
+    """Make a figure for some leaves, with the step over each where there are several."""
+    views = _views(frames, style, side, narrowest_of(frames[-1], color))
+    figure, axes = side_by_side(views, style)
+    if len(frames) > 1:
+        for frame, ax in zip(frames, axes, strict=True):
+            _write_step(ax, frame.step)
+    return figure, axes, views
+
+
 def _write_step(ax: Axes, step: int) -> None:
     """Write the number of the step over a leaf."""
     ax.text(
@@ -198,21 +223,3 @@ def _write_step(ax: Axes, step: int) -> None:
         fontsize=TEXT_SIZE,
         color=INK,
     )
-
-
-def _side_by_side(views: Sequence[View], style: LeafStyle) -> tuple[Figure, list[Axes]]:
-    """Make a figure with one pair of axes a view, standing on one line."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    width = sum(view.inches[0] for view in views)
-    height = max(view.inches[1] for view in views)
-    # a hair more, since matplotlib before 3.11 cuts 399.9999 pixels to 399
-    figure = Figure(figsize=(width + 1e-6, height + 1e-6), facecolor=style.background)
-    FigureCanvasAgg(figure)
-    axes, left = [], 0.0
-    for view in views:
-        across, up = view.inches
-        axes.append(figure.add_axes((left / width, 0.0, across / width, up / height)))
-        left += across
-    return figure, axes

@@ -88,7 +88,7 @@ def view_of(
     -------
     View
     """
-    width, height = _padded(blade, style)[2:]
+    width, height = padded(blade, style)[2:]
     strip = STRIP if with_strip else 0.0
     scale = min(72.0 * side / width, (72.0 * side - strip) / height)
     return view_at(blade, style, scale, with_strip=with_strip, narrowest=narrowest)
@@ -121,7 +121,7 @@ def view_at(
     -------
     View
     """
-    x, y, width, height = _padded(blade, style)
+    x, y, width, height = padded(blade, style)
     strip = (STRIP if with_strip else 0.0) / points_per_length
     half_width = max(width, 72.0 * narrowest / points_per_length) / 2.0
     half_height = max(height, 72.0 * NARROWEST / points_per_length - strip) / 2.0
@@ -192,9 +192,9 @@ def draw_leaf(
         if view is None:
             narrowest = narrowest_of(moment, color)
             view = view_of(blade_of(moment), style, with_strip=has_strip, narrowest=narrowest)
-        ax = _new_axes(view, style)
+        ax = new_axes(view, style)
     elif view is None:
-        view = _view_on(ax, blade_of(moment), style, has_strip)
+        view = view_on(ax, blade_of(moment), style, has_strip)
     left, bottom, right, top = view.box
     ax.set(xlim=(left, right), ylim=(bottom, top), aspect="equal")
     ax.set_axis_off()
@@ -258,7 +258,7 @@ def fitted_widths(
     return _fit(moment, counted, widths, style, view)
 
 
-def _padded(blade: Blade, style: LeafStyle) -> tuple[float, float, float, float]:
+def padded(blade: Blade, style: LeafStyle) -> tuple[float, float, float, float]:
     """Give the middle (x, y), width and height of a blade with paper around it."""
     left, bottom, right, top = blade.bounds
     padding = 2.0 * style.padding * max(right - left, top - bottom)
@@ -275,7 +275,7 @@ def _fit(
     return fit_widths(float(counted.nodes.max(initial=1.0)), widths, style, scale)
 
 
-def _new_axes(view: View, style: LeafStyle) -> Axes:
+def new_axes(view: View, style: LeafStyle) -> Axes:
     """Make a figure filled by one pair of axes, without pyplot."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -285,7 +285,7 @@ def _new_axes(view: View, style: LeafStyle) -> Axes:
     return figure.add_axes((0.0, 0.0, 1.0, 1.0))
 
 
-def _view_on(ax: Axes, blade: Blade, style: LeafStyle, has_strip: bool) -> View:
+def view_on(ax: Axes, blade: Blade, style: LeafStyle, has_strip: bool) -> View:
     """Give the view of a whole blade that fits axes made by somebody else."""
     width, height = size_in_points(ax)
     left, bottom, right, top = view_of(blade, style, with_strip=False).box

@@ -6,6 +6,8 @@ from typing import Literal, get_args
 
 ColorBy = Literal["width", "order", "age", "source", "kind", "state"]
 COLOR_CHOICES: tuple[str, ...] = get_args(ColorBy)
+TissueColorBy = Literal["concentration", "flux", "carriers", "role"]
+TISSUE_COLOR_CHOICES: tuple[str, ...] = get_args(TissueColorBy)
 
 DPI = 200
 """Pixels per inch of pictures in pixels; a line of 1 pt is then 2.8 pixels wide."""

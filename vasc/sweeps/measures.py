@@ -1,6 +1,6 @@
 """What can be measured of a run of a sweep, by name; read from its timeline alone."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,13 +18,29 @@ SUMMARY = (
 STATISTICS = (
     *("step", "time", "length_unit", "blade_length", "blade_area", "nodes", "segments"),
     *("components", "cycles", "vein_length", "vein_density", "areoles", "areole_area_mean"),
-    *("areole_area_cv", "free_ends", *(f"junction_degree.{degree}" for degree in range(3, 9))),
+    *("areole_area_cv", "areole_circularity_median", "areole_elongation_median"),
+    *("areole_corners_mean", "areole_corners_variance", "enclosed_area", "free_ends"),
+    *("free_ends_per_areole", *(f"junction_degree.{degree}" for degree in range(3, 9))),
+    *("sections", "section_length_mean", "section_length_cv", "free_end_length_share"),
+    *("mst_ratio", "box_dimension", "density_x_sqrt_areole", "distance_to_vein_mean"),
+    *("distance_to_vein_median", "distance_to_vein_p95", "density_x_distance"),
+    *("bohn_junctions", "bohn_residual_median", "bohn_residual_shuffled"),
+    *("bohn_angle_error_median", "murray_exponent_median", "loop_asymmetry"),
+    *("loop_asymmetry_shuffled", "loop_asymmetry_weighted", "loop_asymmetry_weighted_shuffled"),
+    *("loop_order", "strahler_order", "horton_bifurcation_ratio"),
+    *(f"strahler_streams.{order}" for order in range(1, 8)),
+    *(f"orders.{n}.{key}" for n in range(1, 8) for key in ("length", "segments", "width_mean")),
 )
 LINEAGE = ("source_life_mean", "source_life_median", "sources_unreached", "nodes_per_source")
 CONNECTIVITY = (
     *("divergence", "rise", "radius", "per_level", "ratio", "primordia", "links", "pair"),
     *("fraction", "least_fraction", "predicted", "predicted_on_surface", "exceptions"),
     *("sympodia", "pass"),
+)
+STRAND = (
+    *("source", "step", "sinks", "reached", "nearest", "nearest_by_cells", "is_nearest"),
+    *("is_nearest_by_cells", "formed", "loop", "vortex", "strands", "landings", "flux_share"),
+    *("width", "length", "tortuosity", "detour", "excess", "pass"),
 )
 EVENTS = (
     *("tip_source", "midvein", "pair_1", "upper_pair", "pair_2", "pair_3", "lower_halves"),
@@ -44,6 +60,7 @@ CATALOGUE: dict[str, tuple[str, ...]] = {
     "lineage": LINEAGE,
     "check.connectivity": CONNECTIVITY,
     "check.sequence": SEQUENCE,
+    "check.strand": STRAND,
 }
 """Names by group; a measure is called ``group.name``."""
 
@@ -115,12 +132,13 @@ def _summary(timeline: "Timeline") -> dict[str, Any]:
 
 def _statistics(timeline: "Timeline") -> dict[str, Any]:
     """Measure the veins of the last step."""
-    from vasc.analysis import statistics
+    from vasc.analysis import WidthParameters, run_widths, statistics
 
-    found = statistics(timeline.frame(), timeline.units)
-    shares = found.pop("junction_degree")
-    degrees = {f"junction_degree.{degree}": share for degree, share in shares.items()}
-    return found | degrees
+    widths = None
+    if timeline.dimensions == 2:
+        asked = WidthParameters.model_validate(timeline.config.get("widths") or {})
+        widths = run_widths(timeline.frame, timeline.last_step, asked)
+    return dict(_flat(statistics(timeline.frame(), timeline.units, widths=widths)))
 
 
 def _lineage(timeline: "Timeline") -> dict[str, Any]:
@@ -160,12 +178,29 @@ def _sequence(timeline: "Timeline") -> dict[str, Any]:
     )
 
 
+def _strand(timeline: "Timeline") -> dict[str, Any]:
+    """Read to which vein the canal of the source leads."""
+    from vasc.validation.strands import check_strand
+
+    return check_strand(timeline).as_json()
+
+
+def _flat(table: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
+    """Give the values of tables in tables by dotted names."""
+    for name, value in table.items():
+        if isinstance(value, Mapping):
+            yield from _flat(value, f"{above}{name}.")
+        else:
+            yield f"{above}{name}", value
+
+
 _GROUPS: dict[str, Callable[["Timeline"], Mapping[str, Any]]] = {
     "summary": _summary,
     "stats": _statistics,
     "lineage": _lineage,
     "check.connectivity": _connectivity,
     "check.sequence": _sequence,
+    "check.strand": _strand,
 }
 
 

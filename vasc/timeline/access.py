@@ -118,7 +118,8 @@ class OpenFile:
 
     def _is_written(self, name: str, rows: NDArray) -> bool:
         """Tell whether no chunk is missing: chunks are missing as a whole."""
-        probes = rows[:: layout.chunk_rows(name) // 4 or 1]
+        chunks = self._datasets[name].chunks
+        probes = rows[:: (chunks[0] if chunks else layout.chunk_rows(name)) // 4 or 1]
         fill = layout.fill_value(rows.dtype)
         missing = np.isnan(probes) if rows.dtype.kind == "f" else probes == fill
         last = rows[-1:] == fill if rows.dtype.kind != "f" else np.isnan(rows[-1:])

@@ -10,27 +10,18 @@ from vasc.arrays import Points
 from vasc.errors import TimelineError
 from vasc.events import EventKind
 from vasc.state import moved
+from vasc.timeline import moving
 from vasc.timeline.layout import Motion, count_column
+from vasc.timeline.moving import positions_at
 
 AREOLES_IN_SPACE = "areoles are recorded in space; they have an area in the plane alone"
 
 
-class Recorded(Protocol):
+class Recorded(moving.Recorded, Protocol):
     """What the areas need of a timeline."""
-
-    @property
-    def motion(self) -> Motion:
-        """How the file tells where everything is at a step."""
-
-    @property
-    def frames(self) -> dict[str, NDArray]:
-        """Columns of ``frames``."""
 
     def n_rows(self, table: str) -> int:
         """Give the number of rows of a table."""
-
-    def table(self, name: str, column: str, start: int = 0, stop: int | None = None) -> NDArray:
-        """Read rows of a column."""
 
     def places(self, name: str, step: int) -> Points:
         """Read explicit positions of a step."""
@@ -79,6 +70,28 @@ def areole_areas(timeline: Recorded) -> dict[str, NDArray]:
         "areole": np.concatenate([np.empty(0, dtype=np.int32), *ids]),
         "area": np.concatenate([np.empty(0), *areas]),
     }
+
+
+def area_of(timeline: Recorded, areole: int, step: int) -> float:
+    """Give the area of one areole at one step; the positions of no other step are read.
+
+    Parameters
+    ----------
+    timeline : Timeline
+        An open timeline.
+    areole : int
+        An areole that is recorded.
+    step : int
+        A recorded step, not before its birth.
+
+    Returns
+    -------
+    float
+        In square units of length.
+    """
+    nodes = timeline.table("boundaries", "node")[timeline.table("boundaries", "areole") == areole]
+    points = positions_at(timeline, nodes, np.full(len(nodes), step, dtype=np.int32))
+    return float(polygon_areas(points, np.zeros(len(nodes), dtype=np.int32), 1)[0])
 
 
 def _split_steps(timeline: Recorded) -> NDArray[np.int64]:

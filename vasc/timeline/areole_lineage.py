@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vasc.arrays import NULL, Ids
 from vasc.errors import TimelineError
 from vasc.events import EventKind
+from vasc.timeline.genealogy import Genealogy
 
 
 class Recorded(Protocol):
@@ -21,12 +22,6 @@ class Recorded(Protocol):
     @property
     def events(self) -> Mapping[str, NDArray]:
         """Columns of the events."""
-
-    def n_rows(self, table: str) -> int:
-        """Give the number of rows of a table."""
-
-    def table(self, name: str, column: str, start: int = 0, stop: int | None = None) -> NDArray:
-        """Read rows of a column."""
 
 
 @dataclass(frozen=True)
@@ -69,30 +64,37 @@ class AreoleFate:
     blind_ends: Ids
 
 
-def areole_fate(timeline: Recorded, areole: int) -> AreoleFate:
+def areole_fate(timeline: Recorded, genealogy: Genealogy, areole: int) -> AreoleFate:
     """Tell where an areole came from, and what became of it.
+
+    Parameters
+    ----------
+    timeline : Timeline
+        An open timeline.
+    genealogy : Genealogy
+        Of all its areoles.
+    areole : int
+        One of them.
 
     Raises
     ------
     TimelineError
         If there is no such areole.
     """
-    n_areoles = timeline.n_rows("areoles")
+    n_areoles = genealogy.n_areoles
     if not 0 <= areole < n_areoles:
         known = f"ids are 0 to {n_areoles - 1}" if n_areoles else "the run has none"
         raise TimelineError(f"{timeline.path}: there is no areole {areole}; {known}")
-    parents = timeline.table("areoles", "parent")
     events = timeline.events
     sources = np.unique(_subjects_of(events, EventKind.SOURCE_ENCLOSED, areole))
-    is_split = (events["kind"] == EventKind.AREOLE_SPLIT) & (events["subject"] == areole)
     return AreoleFate(
         areole=areole,
-        birth=int(timeline.table("areoles", "birth")[areole]),
-        segment=int(timeline.table("areoles", "segment")[areole]),
-        parent=int(parents[areole]),
-        ancestors=_ancestors(parents, areole),
-        split=int(events["step"][is_split][0]) if is_split.any() else NULL,
-        children=tuple(np.flatnonzero(parents == areole).tolist()),
+        birth=int(genealogy.births[areole]),
+        segment=int(genealogy.segments[areole]),
+        parent=int(genealogy.parents[areole]),
+        ancestors=_ancestors(genealogy.parents, areole),
+        split=int(genealogy.splits[areole]),
+        children=tuple(np.flatnonzero(genealogy.parents == areole).tolist()),
         sources=sources,
         drained=_steps_of(events, EventKind.SOURCE_REMOVED, sources),
         blind_ends=_subjects_of(events, EventKind.VEIN_ENDED_BLINDLY, sources),

@@ -1,4 +1,4 @@
-"""What a run that is repeated gives differently, column by column and bit by bit."""
+"""What two runs, or one that is repeated, give differently, column by column, bit by bit."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -6,9 +6,20 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vasc.fields import FIELD_COLUMNS
 from vasc.state import TABLE_COLUMNS, Places, State
-from vasc.timeline.layout import DIMENSIONS, MOTION, STEM_RING, Motion, motion_of
+from vasc.timeline.layout import (
+    DIMENSIONS,
+    FIELDS,
+    MOTION,
+    STEM_RING,
+    TISSUE,
+    Motion,
+    count_column,
+    motion_of,
+)
 from vasc.timeline.reader import Timeline
+from vasc.timeline.tissues import arrays_of
 
 FRAME_COLUMNS = ("time", "motion", "outline_motion")
 """Columns of ``frames`` that a state gives under the same name, if at all."""
@@ -18,7 +29,8 @@ class Difference(NamedTuple):
     """The first value of a column that a second run gives differently.
 
     The row is -1 when a whole is compared. In the table ``motion``, of explicit
-    positions, it is counted from the first row of the step.
+    positions, and in that of the ``fields`` of a tissue, it is counted from the first row
+    of the step.
     """
 
     step: int
@@ -40,11 +52,24 @@ def compare_places(timeline: Timeline, state: State, found: dict[str, Difference
             found[name] = difference
 
 
+def compare_fields(timeline: Timeline, state: State, found: dict[str, Difference]) -> None:
+    """Compare the fields of a step; the first difference of each is added."""
+    if state.fields is None or timeline.tissue is None:
+        return
+    fields = timeline.fields(state.step)
+    for name in (one for one in FIELD_COLUMNS if one not in found):
+        recorded, repeated = getattr(fields, name), getattr(state.fields, name)
+        steps = np.full(max(len(recorded), len(repeated)), state.step)
+        for difference in _difference(FIELDS, name, recorded, repeated, steps):
+            found[name] = difference
+
+
 def form_differences(timeline: Timeline, state: State) -> Iterator[Difference]:
-    """Compare the dimensions, the motion, and the ring at the base of a stem."""
+    """Compare the dimensions, the motion, the ring at the base of a stem, and the cells."""
     for name, recorded, repeated in (
         (DIMENSIONS, timeline.dimensions, state.dimensions),
         (MOTION, timeline.motion, motion_of(state)),
+        (TISSUE, int(timeline.tissue is not None), int(state.tissue is not None)),
     ):
         if recorded != repeated:
             yield Difference(0, "", name, -1, str(recorded), str(repeated))
@@ -53,6 +78,11 @@ def form_differences(timeline: Timeline, state: State) -> Iterator[Difference]:
         rings = timeline.base_ring, state.base_ring
         steps = np.zeros(max(map(len, rings)), dtype=np.int64)
         yield from _difference(table, column, *rings, steps)
+    if timeline.tissue is not None and state.tissue is not None:
+        again = arrays_of(state.tissue)
+        for path, rows in arrays_of(timeline.tissue).items():
+            steps = np.zeros(max(len(rows), len(again[path])), dtype=np.int64)
+            yield from _difference(TISSUE, path.partition("/")[2], rows, again[path], steps)
 
 
 def frame_differences(timeline: Timeline, repeated: dict[str, NDArray]) -> Iterator[Difference]:
@@ -84,6 +114,69 @@ def table_differences(timeline: Timeline, state: State) -> Iterator[Difference]:
         for name in columns:
             recorded, repeated = timeline.table(table, name), state.rows(table, name)
             yield from _difference(table, name, recorded, repeated, steps)
+
+
+def timeline_differences(one: Timeline, other: Timeline) -> list[Difference]:
+    """Compare two recorded runs: what happened, and where everything was.
+
+    Parameters
+    ----------
+    one, other : Timeline
+        Open timelines. The states of their random streams, their configs and
+        provenance are not compared.
+
+    Returns
+    -------
+    list of Difference
+        By step, at most one a column; empty if the runs are the same, bit for bit.
+
+    Raises
+    ------
+    TimelineError
+        If rows cannot be read.
+    """
+    found = [
+        Difference(0, "", name, -1, str(values[0]), str(values[1]))
+        for name, values in (
+            (DIMENSIONS, (one.dimensions, other.dimensions)),
+            (MOTION, (one.motion, other.motion)),
+        )
+        if values[0] != values[1]
+    ]
+    shared = [name for name in FRAME_COLUMNS if name in one.frames and name in other.frames]
+    for name in shared:
+        steps = np.arange(max(one.n_frames, other.n_frames))
+        found += _difference("frames", name, one.frames[name], other.frames[name], steps)
+    if one.dimensions == other.dimensions:
+        for table in TABLE_COLUMNS:
+            if table != "perceived" or (one.records_perceived and other.records_perceived):
+                found += _table_differences(one, other, table)
+    if one.motion == other.motion == Motion.EXPLICIT:
+        found += _place_differences(one, other)
+    return sorted(found, key=lambda difference: difference.step)
+
+
+def _table_differences(one: Timeline, other: Timeline, table: str) -> Iterator[Difference]:
+    """Compare a table of two runs; a row is of the step of its birth in either run."""
+    n_rows = np.arange(max(one.n_rows(table), other.n_rows(table)))
+    births = [
+        np.searchsorted(run.frames[count_column(table)], n_rows, side="right")
+        for run in (one, other)
+    ]
+    steps = np.minimum(births[0], births[1])
+    for name in TABLE_COLUMNS[table]:
+        yield from _difference(table, name, one.table(table, name), other.table(table, name), steps)
+
+
+def _place_differences(one: Timeline, other: Timeline) -> Iterator[Difference]:
+    """Compare explicit positions step by step, up to the first that differ."""
+    for step in range(min(one.n_frames, other.n_frames)):
+        for name in Places._fields:
+            rows = one.places(name, step), other.places(name, step)
+            steps = np.full(max(map(len, rows)), step)
+            for difference in _difference("motion", name, *rows, steps):
+                yield difference
+                return
 
 
 def _difference(

@@ -48,8 +48,9 @@ class CompressedColumn:
         if stop > self.n_rows:
             self._dataset.set_extent((stop, *self._row_shape))
             self.n_rows = stop
-        # the rest of the chunk begun, whole chunks, and the beginning of one more
-        head = min(stop, -(-start // size) * size)
+        # the rest of the chunk begun, whole chunks, and the beginning of one more; the first
+        # chunk is there from the beginning, as it is, and stays so
+        head = min(stop, max(size, -(-start // size) * size))
         tail = max(head, stop // size * size)
         if head > start:
             self._write_part(start, rows[: head - start])

@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vasc.arrays import Column, Ids
-from vasc.domain import Blade
+from vasc.domain import Blade, Tissue
 from vasc.errors import TimelineError
 from vasc.timeline import layout
 from vasc.timeline.layout import Motion
 from vasc.timeline.storage import Store, beside, check_output, publish
+from vasc.timeline.tissues import arrays_of, check_room
 
 RECORD_BYTES = 8192
 """Least room for one provenance record."""
@@ -28,6 +29,7 @@ def create_file(
     base_ring: Ids | None,
     motion: Motion,
     dimensions: int,
+    tissue: Tissue | None,
     stream_names: tuple[str, ...],
     units: Mapping[str, str | float],
     first_record: str,
@@ -51,6 +53,8 @@ def create_file(
         How the file tells where everything is at a step.
     dimensions : int
         2 for a blade, 3 for a stem.
+    tissue : Tissue or None
+        The cells; None for a run without any.
     stream_names : tuple of str
         Names of the random streams.
     units : mapping of str to str or float
@@ -63,25 +67,30 @@ def create_file(
     Raises
     ------
     OutputError
-        If the file exists and ``force`` is not set, or cannot be made.
+        If the file exists and ``force`` is not set, or cannot be made, or the disk has no
+        room for a tissue.
     TimelineError
-        If blade, ring, motion and dimensions do not go together.
+        If blade, ring, motion, dimensions and tissue do not go together.
     """
-    problem = layout.mismatch(dimensions, motion)
+    has_tissue = tissue is not None
+    problem = layout.mismatch(dimensions, motion, has_tissue)
     if problem is not None:
         raise TimelineError(f"{path}: {problem}")
-    domain = _domain(path, blade, base_ring, dimensions)
+    arrays = _domain(path, blade, base_ring, dimensions)
+    arrays |= {} if tissue is None else arrays_of(tissue)
     check_output(path, force=force)
+    if tissue is not None:
+        check_room(path, tissue)
     unready = beside(path)
     try:
         store = Store.create(unready)
         try:
             with store.writing():
-                _describe(store, header, motion, dimensions, units)
+                _describe(store, header, motion, dimensions, has_tissue, units)
                 for name, text in texts.items():
                     store.add_text(name, text, {"meaning": layout.TEXTS[name]})
-                _add_domain(store, domain, dimensions)
-                _add_columns(store, stream_names, motion, dimensions)
+                _add_arrays(store, arrays)
+                _add_columns(store, stream_names, motion, dimensions, tissue)
                 _add_provenance(store, first_record)
                 for name, column in layout.MARKS.items():
                     store.add_array(
@@ -100,13 +109,15 @@ def _describe(
     header: Mapping[str, Any],
     motion: Motion,
     dimensions: int,
+    has_tissue: bool,
     units: Mapping[str, str | float],
 ) -> None:
     """Set the attributes of the file and make the groups."""
     version = ".".join(str(number) for number in layout.VERSION)
     fixed = {"format": layout.FORMAT, "version": version, layout.MOTION: str(motion)}
-    store.describe(fixed | dict(header) | {layout.DIMENSIONS: np.int8(dimensions)})
-    for group, meaning in layout.groups(motion, dimensions).items():
+    form = {layout.DIMENSIONS: np.int8(dimensions), layout.TISSUE: np.int8(has_tissue)}
+    store.describe(fixed | dict(header) | form)
+    for group, meaning in layout.groups(motion, dimensions, has_tissue).items():
         known = {name: value for name, value in units.items() if value is not None}
         extra = known if group == layout.UNITS else {}
         store.add_group(group, {"meaning": meaning, **extra})
@@ -130,29 +141,38 @@ def _domain(
     }
 
 
-def _add_domain(store: Store, values: Mapping[str, NDArray], dimensions: int) -> None:
-    """Write the arrays that describe what develops."""
-    for name, column in layout.static_columns(dimensions).items():
-        rows = np.ascontiguousarray(values[name], dtype=column.dtype)
+def _add_arrays(store: Store, arrays: Mapping[str, NDArray]) -> None:
+    """Write the arrays that never grow."""
+    for name, values in arrays.items():
+        column = layout.STATIC[name]
+        rows = np.ascontiguousarray(values, dtype=column.dtype)
         attributes = {"meaning": column.meaning} | ({"unit": column.unit} if column.unit else {})
         store.add_array(name, rows, attributes)
 
 
 def _add_columns(
-    store: Store, stream_names: tuple[str, ...], motion: Motion, dimensions: int
+    store: Store,
+    stream_names: tuple[str, ...],
+    motion: Motion,
+    dimensions: int,
+    tissue: Tissue | None,
 ) -> None:
     """Make the growing columns, empty."""
-    for path, column in layout.growing_columns(len(stream_names), motion, dimensions).items():
+    form = (motion, dimensions, tissue is not None)
+    for path, column in layout.growing_columns(len(stream_names), *form).items():
         group, _, name = path.partition("/")
+        of_step = 1
+        if tissue is not None and group == layout.FIELDS:
+            of_step = layout.rows_a_step(name, tissue.n_cells, tissue.n_walls)
         attributes = layout.column_attributes(group, name, column)
         if path == "frames/streams":
             attributes["names"] = np.array([name.encode() for name in stream_names])
         store.add_column(
             path,
             column,
-            layout.chunk_rows(path),
+            layout.chunk_rows(path, of_step),
             attributes,
-            is_compressed=group == layout.MOTION,
+            is_compressed=group in (layout.MOTION, layout.FIELDS),
         )
 
 

@@ -5,6 +5,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from vasc.domain import Tissue
+from vasc.fields import Fields, Role
 from vasc.timeline import guard
 from vasc.timeline.access import OpenFile
 from vasc.timeline.frame import require
@@ -27,6 +29,13 @@ class Recorded(Protocol):
     def frames(self) -> dict[str, NDArray]:
         """Columns of ``frames``."""
 
+    @property
+    def tissue(self) -> Tissue | None:
+        """The cells, None in a run without."""
+
+    def fields(self, step: int = -1) -> Fields:
+        """Read the fields of a step."""
+
     def n_rows(self, table: str) -> int:
         """Give the number of rows of a table."""
 
@@ -34,15 +43,17 @@ class Recorded(Protocol):
         """Read rows of a column."""
 
 
-def data_frame(timeline: Recorded, name: str) -> Any:
-    """Give a table, or ``frames``, as a ``pandas.DataFrame``; its index is the id.
+def data_frame(timeline: Recorded, name: str, step: int = -1) -> Any:
+    """Give a table, ``frames``, or a step of a tissue, as a ``pandas.DataFrame`` by id.
 
     Parameters
     ----------
     timeline : Timeline
         An open timeline.
     name : str
-        Name of the table, or ``frames``.
+        Name of the table, or ``frames``, or ``cells`` or ``walls`` of a tissue.
+    step : int
+        The step that cells and walls are shown at, the last one when not given.
 
     Returns
     -------
@@ -52,11 +63,13 @@ def data_frame(timeline: Recorded, name: str) -> Any:
     Raises
     ------
     TimelineError
-        If there is no such table.
+        If there is no such table, no such step, or no tissue.
     VascError
         If pandas is not installed.
     """
     pandas = require("pandas", "tables")
+    if name in ("cells", "walls"):
+        return pandas.DataFrame(_tissue(timeline, name, step)).rename_axis("id")
     if name == "frames":
         columns = {key: rows for key, rows in timeline.frames.items() if key != "streams"}
     else:
@@ -71,6 +84,31 @@ def data_frame(timeline: Recorded, name: str) -> Any:
         else:
             flat.update(_flat(key, rows))
     return pandas.DataFrame(flat).rename_axis("step" if name == "frames" else "id")
+
+
+def _tissue(timeline: Recorded, name: str, step: int) -> dict[str, Any]:
+    """Give the cells or walls of a tissue with their fields at a step."""
+    fields, tissue = timeline.fields(step), timeline.tissue
+    assert tissue is not None, "there are fields"
+    if name == "cells":
+        # a role that is not named is as it is
+        words = {int(role): role.name.lower() for role in Role}
+        roles = [words.get(code, str(code)) for code in fields.roles.tolist()]
+        return {
+            **_flat("position", tissue.positions),
+            "volume": tissue.volumes,
+            "concentration": fields.concentration,
+            "role": roles,
+        }
+    return {
+        "first": tissue.walls[:, 0],
+        "second": tissue.walls[:, 1],
+        "length": tissue.lengths,
+        "distance": tissue.distances,
+        "flux": fields.flux,
+        "carriers_forth": fields.carriers[:, 0],
+        "carriers_back": fields.carriers[:, 1],
+    }
 
 
 def _flat(key: str, rows: NDArray) -> dict[str, NDArray]:

@@ -1,5 +1,6 @@
 """One recorded step: the blade, the veins and the sources as they were then."""
 
+from collections.abc import Callable
 from functools import cached_property
 from importlib import import_module
 from typing import Any, Protocol
@@ -10,9 +11,11 @@ from numpy.typing import NDArray
 from vasc.areoles import AREOLE_COLUMNS, BOUNDARY_COLUMNS, AreoleSet, areoles_from_columns
 from vasc.arrays import Points
 from vasc.canals import CANAL_TABLES, CanalSet, canals_from_columns
-from vasc.domain import Blade
+from vasc.domain import Blade, Tissue
 from vasc.errors import TimelineError, VascError
+from vasc.fields import Fields
 from vasc.network import NODE_COLUMNS, Origin, SegmentKind, VeinNetwork
+from vasc.notebook import card, picture_of
 from vasc.sources import SourceSet
 from vasc.state import moved, network_from_columns, positions, source_states
 from vasc.states import SourceState
@@ -30,6 +33,13 @@ class Recorded(Protocol):
     @property
     def motion(self) -> Motion:
         """How the file tells where everything is at a step."""
+
+    @property
+    def tissue(self) -> Tissue | None:
+        """The cells, None in a run without."""
+
+    def fields(self, step: int) -> Fields:
+        """Read the fields of a step."""
 
     def table(self, name: str, column: str, start: int = 0, stop: int | None = None) -> NDArray:
         """Read rows of a column."""
@@ -59,6 +69,25 @@ class Frame:
 
     def __repr__(self) -> str:
         return f"Frame(step={self.step}, time={self.time:g}, nodes={self.n_rows('nodes')})"
+
+    def _repr_html_(self) -> str:
+        """Show a small picture in a notebook."""
+        return card(f"Frame of step {self.step}", self._facts(), self.picture)
+
+    def _facts(self) -> dict[str, Callable[[], object]]:
+        """Give what a notebook shows beside the picture."""
+        return {
+            "time": lambda: f"{self.time:g}",
+            "nodes": lambda: self.network.n_vein_nodes,
+            "segments": lambda: self.network.n_segments,
+            "live sources": lambda: self.sources.n_sources,
+        }
+
+    def picture(self) -> str:
+        """Give a small picture of blade and veins, as HTML for a notebook."""
+        is_leaf = self._timeline.motion != Motion.NONE
+        rings = self.blade.rings if is_leaf else ()
+        return picture_of(self.positions, self.network.segments, rings)
 
     @property
     def motion(self) -> NDArray[np.float64] | None:
@@ -103,6 +132,16 @@ class Frame:
             return initial.scaled(scale)
         rings = [moved(ring, motion) for ring in initial.rings]
         return Blade.from_rings(rings, moved(initial.seeds, motion))
+
+    @property
+    def tissue(self) -> Tissue | None:
+        """The cells of the blade; None in a run without cells."""
+        return self._timeline.tissue
+
+    @cached_property
+    def fields(self) -> Fields | None:
+        """Auxin and its carriers in the cells and walls at this step; None without cells."""
+        return None if self.tissue is None else self._timeline.fields(self.step)
 
     @cached_property
     def positions(self) -> Points:

@@ -18,7 +18,7 @@ import numpy as np
 
 from vasc.arrays import Column
 from vasc.errors import TimelineError
-from vasc.timeline.layout import FORMAT, MOTION, VERSION
+from vasc.timeline.layout import FIELDS, FORMAT, MOTION, VERSION
 from vasc.timeline.storage import reason
 
 if sys.platform != "win32":
@@ -248,8 +248,9 @@ def _check_plain(path: Path, name: str, dataset: h5py.Dataset) -> None:
         raise TimelineError(f"{path}: {name} uses the unknown filters {unknown}; refused")
     declared = int(dataset.size or 0) * dataset.dtype.itemsize
     limit = os.path.getsize(path) * (MAX_RATIO if filters else 1) + SLACK
-    # explicit positions are read step by step
-    most = limit if name.startswith(f"{MOTION}/") else min(limit, MAX_BYTES)
+    # explicit positions and fields are read step by step
+    is_sliced = name.startswith((f"{MOTION}/", f"{FIELDS}/"))
+    most = limit if is_sliced else min(limit, MAX_BYTES)
     if declared > most:
         raise TimelineError(f"{path}: {name} declares {declared} bytes, more than the file holds")
 

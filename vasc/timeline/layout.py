@@ -9,6 +9,7 @@ from numpy.typing import DTypeLike
 
 from vasc.arrays import Column, Columns
 from vasc.events import EventKind, StopReason
+from vasc.fields import FIELD_COLUMNS, OF_WALLS
 from vasc.network import Origin, SegmentKind
 from vasc.sources import Cause
 from vasc.state import TABLE_COLUMNS, State, table_columns
@@ -33,6 +34,9 @@ STEM_RING = "stem/ring"
 UNITS = "units"
 MOTION = "motion"
 DIMENSIONS = "dimensions"
+TISSUE = "tissue"
+"""The attribute that tells whether there are cells, and the group that holds them."""
+FIELDS = "fields"
 DOMAINS = {2: "blade", 3: "stem"}
 """The group of what develops, by the number of dimensions."""
 
@@ -55,12 +59,21 @@ def motion_of(state: State) -> Motion:
     return Motion.NONE if state.places is None else Motion.EXPLICIT
 
 
-def mismatch(dimensions: int, motion: Motion) -> str | None:
-    """Say why no file has these dimensions and this motion, None if one may."""
+def form_of(state: State) -> tuple[Motion, int, tuple[int, int]]:
+    """Give what all states of a file have in common: motion, dimensions, cells and walls."""
+    fields = state.fields
+    cells = (0, 0) if fields is None else (len(fields.roles), len(fields.flux))
+    return motion_of(state), state.dimensions, cells
+
+
+def mismatch(dimensions: int, motion: Motion, has_tissue: bool = False) -> str | None:
+    """Say why no file has these dimensions, this motion and cells or not, None if one may."""
     if dimensions not in DOMAINS:
         return f"the attribute {DIMENSIONS!r} is {dimensions}, must be 2 or 3"
     if (dimensions == 3) != (motion == Motion.NONE):
         return f"motion {str(motion)!r} with {dimensions} dimensions; 'none' and 3 go together"
+    if has_tissue and motion != Motion.AFFINE:
+        return f"motion {str(motion)!r} with a tissue; its cells stay where they are: 'affine'"
     return None
 
 
@@ -92,6 +105,11 @@ PLACES: Columns = {
 }
 """Columns of ``motion`` where it is explicit; a step is a slice, row number = id within it."""
 PLACES_MEANING = "where nodes, sources and the outline are, one step after the other"
+TISSUE_MEANINGS = {
+    TISSUE: "cells and the walls between them; they stay where they are",
+    FIELDS: "auxin and its carriers in every cell and wall, one step after the other",
+}
+"""Meaning of the groups that only files of a tissue have."""
 
 MARKS = {
     COMMITTED: Column("i8", "number of committed frames"),
@@ -104,8 +122,21 @@ STATIC = {
     RING_STARTS: Column("i4", "first row of each ring, and the number of rows at the end"),
     SEEDS: Column("f8", "attachment points: the first vein nodes", "length", (2,)),
     STEM_RING: Column("i4", "ids of the nodes of the ring at the base, in their order around it"),
+    "tissue/position": Column("f8", "centres of the cells; row = cell id", "length", (2,)),
+    "tissue/volume": Column("f8", "areas of the cells: the tissue is one cell thick"),
+    "tissue/walls": Column(
+        "i4", "the two cells a wall parts, the lower first; row = wall id", "", (2,)
+    ),
+    "tissue/length": Column("f8", "lengths of the walls", "length"),
+    "tissue/distance": Column("f8", "from centre to centre across each wall", "length"),
+    "tissue/corners": Column(
+        "f8", "corners of all cells, one cell after the other", "length", (2,)
+    ),
+    "tissue/starts": Column(
+        "i4", "first corner of each cell, and the number of corners at the end"
+    ),
 }
-"""Arrays written once, in the group of what develops."""
+"""Arrays written once: those of what develops, and those of a tissue."""
 
 TEXTS = {
     CONFIG_TOML: "the config as given (TOML)",
@@ -156,6 +187,10 @@ ROLES: dict[EventKind, EventRoles] = {
     EventKind.AREOLE_SPLIT: EventRoles("areoles", "segments"),
     EventKind.SOURCE_ENCLOSED: EventRoles("sources", "areoles"),
     EventKind.MESOPHYLL_EVENT: EventRoles(None, None),
+    EventKind.CANALS_SETTLED: EventRoles(None, None),
+    EventKind.CANALS_UNSETTLED: EventRoles(None, None),
+    # cells are rows of no table
+    EventKind.VORTEX_FORMED: EventRoles(None, None),
 }
 
 
@@ -164,20 +199,21 @@ def count_column(table: str) -> str:
     return f"n_{table}"
 
 
-def groups(motion: Motion, dimensions: int = 2) -> dict[str, str]:
-    """Give the meaning of every group in a file with such a motion and dimensions."""
+def groups(motion: Motion, dimensions: int = 2, has_tissue: bool = False) -> dict[str, str]:
+    """Give the meaning of every group in a file of such a form."""
     meanings = {
         name: meaning
         for name, meaning in MEANINGS.items()
         if name not in DOMAINS.values() or name == DOMAINS[dimensions]
     }
-    return meanings | ({MOTION: PLACES_MEANING} if motion == Motion.EXPLICIT else {})
+    meanings |= {MOTION: PLACES_MEANING} if motion == Motion.EXPLICIT else {}
+    return meanings | (TISSUE_MEANINGS if has_tissue else {})
 
 
-def static_columns(dimensions: int) -> Columns:
-    """Give the arrays written once in a file with such dimensions, by their path."""
-    domain = f"{DOMAINS[dimensions]}/"
-    return {path: column for path, column in STATIC.items() if path.startswith(domain)}
+def static_columns(dimensions: int, has_tissue: bool = False) -> Columns:
+    """Give the arrays written once in a file of such a form, by their path."""
+    own = (DOMAINS[dimensions], TISSUE) if has_tissue else (DOMAINS[dimensions],)
+    return {path: column for path, column in STATIC.items() if path.partition("/")[0] in own}
 
 
 def frame_columns(n_streams: int, motion: Motion = Motion.AFFINE) -> Columns:
@@ -202,7 +238,10 @@ def frame_columns(n_streams: int, motion: Motion = Motion.AFFINE) -> Columns:
 
 
 def growing_columns(
-    n_streams: int, motion: Motion = Motion.AFFINE, dimensions: int = 2
+    n_streams: int,
+    motion: Motion = Motion.AFFINE,
+    dimensions: int = 2,
+    has_tissue: bool = False,
 ) -> dict[str, Column]:
     """Give all columns that grow with the frames, by their path in the file."""
     grouped: dict[str, Columns] = {
@@ -211,6 +250,8 @@ def growing_columns(
     }
     if motion == Motion.EXPLICIT:
         grouped[MOTION] = PLACES
+    if has_tissue:
+        grouped[FIELDS] = FIELD_COLUMNS
     return {
         f"{group}/{name}": column
         for group, columns in grouped.items()
@@ -218,10 +259,19 @@ def growing_columns(
     }
 
 
-def chunk_rows(path: str) -> int:
-    """Give the rows of one chunk: few for frames, many where most rows are."""
+def rows_a_step(field: str, n_cells: int, n_walls: int) -> int:
+    """Give the rows that a field has at every step."""
+    return n_walls if field in OF_WALLS else n_cells
+
+
+def chunk_rows(path: str, of_step: int = 1) -> int:
+    """Give the rows of one chunk: few for frames, many where most rows are.
+
+    Where every step has as many rows, ``of_step``, a chunk holds whole steps.
+    """
     group = path.partition("/")[0]
-    return {"frames": 256, "perceived": 16384}.get(group, 4096)
+    least = {"frames": 256, "perceived": 16384}.get(group, 4096)
+    return max(1, of_step) * -(-least // max(1, of_step))
 
 
 def fill_value(dtype: DTypeLike) -> np.generic:

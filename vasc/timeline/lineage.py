@@ -1,72 +1,34 @@
 """Lineage: who descends from whom, what a source caused, and what became of it."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vasc.arrays import NULL, Ids
 from vasc.errors import TimelineError
-from vasc.events import EventKind
+from vasc.timeline import competition, vein_loops, veins
 from vasc.timeline.areole_lineage import AreoleFate, areole_fate
+from vasc.timeline.competition import competitors
+from vasc.timeline.frame import require
+from vasc.timeline.genealogy import Genealogy, Loops, genealogy_of
+from vasc.timeline.life_table import life_table
+from vasc.timeline.source_fates import Fate, SourceFate, fate_columns, fate_table, source_fate
+from vasc.timeline.vein_loops import VeinLoop, loop_of
+from vasc.timeline.veins import Veins, births, births_by_order, veins_of
 
 
-class Recorded(Protocol):
+class Recorded(vein_loops.Recorded, competition.Recorded, veins.Recorded, Protocol):
     """What lineage needs of a timeline."""
-
-    path: Path
-
-    @property
-    def events(self) -> Mapping[str, NDArray]:
-        """Columns of the events."""
 
     @property
     def last_step(self) -> int:
         """The last recorded step."""
 
-    def n_rows(self, table: str) -> int:
-        """Give the number of rows of a table."""
 
-    def table(self, name: str, column: str, start: int = 0, stop: int | None = None) -> NDArray:
-        """Read rows of a column."""
-
-
-@dataclass(frozen=True)
-class SourceFate:
-    """What became of one source.
-
-    Parameters
-    ----------
-    source : int
-        Its id.
-    birth : int
-        Step of birth.
-    tagged : int
-        Step at which the first vein came within the kill distance, -1 if none did.
-    removed : int
-        Step of its death, -1 if it lives.
-    nearest : int
-        The nearest node when it died, -1 if it lives.
-    tags : ndarray of shape (k,), int32
-        The nodes it waited for, ascending.
-    joins : ndarray of shape (j,), int32
-        The segments that joined veins where it was.
-    nodes : ndarray of shape (m,), int32
-        The nodes it caused, ascending.
-    """
-
-    source: int
-    birth: int
-    tagged: int
-    removed: int
-    nearest: int
-    tags: Ids
-    joins: Ids
-    nodes: Ids
+LINEAGE_TABLES = ("areoles", "births", "births_by_order", "competitors", "fates", "life_table")
+"""Names that :meth:`Lineage.table` knows."""
 
 
 class Lineage:
@@ -157,21 +119,7 @@ class Lineage:
         TimelineError
             If there is no such source.
         """
-        nodes = self.nodes_of(source)
-        fates, events = self.fates, self._timeline.events
-        of_source = events["subject"] == source
-        tags = events["object"][of_source & (events["kind"] == EventKind.SOURCE_TAGGED)]
-        is_join = (events["kind"] == EventKind.VEIN_JOINED) & (events["object"] == source)
-        return SourceFate(
-            source=source,
-            birth=int(fates["birth"][source]),
-            tagged=int(fates["tagged"][source]),
-            removed=int(fates["removed"][source]),
-            nearest=int(fates["nearest"][source]),
-            tags=np.unique(tags),
-            joins=events["subject"][is_join],
-            nodes=nodes,
-        )
+        return source_fate(self._timeline, self.fates, source, self.nodes_of(source))
 
     @cached_property
     def fates(self) -> dict[str, Ids]:
@@ -180,19 +128,11 @@ class Lineage:
         Steps of birth, of the first tag and of death, and the nearest node at
         death; -1 for what did not happen.
         """
-        births = self._timeline.table("sources", "birth")
-        events = self._timeline.events
-        columns = {"birth": births}
-        for name, kind, value in (
-            ("tagged", EventKind.SOURCE_TAGGED, "step"),
-            ("removed", EventKind.SOURCE_REMOVED, "step"),
-            ("nearest", EventKind.SOURCE_REMOVED, "object"),
-        ):
-            rows = np.flatnonzero(events["kind"] == kind)[::-1]
-            # backwards, so that the first event of a source is the one that stays
-            columns[name] = np.full(len(births), NULL, dtype=np.int32)
-            columns[name][events["subject"][rows]] = events[value][rows]
-        return columns
+        return fate_columns(self._timeline)
+
+    def fate_table(self) -> dict[str, NDArray]:
+        """Give what became of every source: see :func:`vasc.timeline.source_fates.fate_table`."""
+        return fate_table(self._timeline, self.fates, self.causes)
 
     def areole(self, areole: int) -> AreoleFate:
         """Tell where an areole came from, and what became of it.
@@ -202,38 +142,153 @@ class Lineage:
         TimelineError
             If there is no such areole.
         """
-        return areole_fate(self._timeline, areole)
+        return areole_fate(self._timeline, self._loops[0], areole)
 
     def life_table(self) -> dict[str, NDArray]:
-        """Give the life table of the sources: one row an age, in steps since birth.
+        """Give the life table of the sources: see :func:`vasc.timeline.life_table.life_table`.
+
+        Those alive at the last recorded step are censored.
+        """
+        births, removed = self.fates["birth"], self.fates["removed"]
+        return life_table(births, removed, self._timeline.last_step)
+
+    @cached_property
+    def veins(self) -> Veins:
+        """The vein that each node belongs to, and its branching order."""
+        return veins_of(self._timeline)
+
+    def births(self, orders: NDArray | None = None) -> dict[str, NDArray]:
+        """Give the birth of every vein, in step, time and height, by its order.
+
+        Parameters
+        ----------
+        orders : ndarray of shape (n,), int, optional
+            An order for each node; branching orders if left out.
 
         Returns
         -------
         dict of str to ndarray
-            ``age``; ``at_risk``, sources seen alive up to that age; ``deaths`` at
-            that age; ``censored``, sources last seen alive at that age; and
-            ``survival``, the share that lives longer (Kaplan and Meier, 1958). Empty
-            columns when there is no source.
+            See :func:`vasc.timeline.veins.births`.
 
-        References
-        ----------
-        E. L. Kaplan and P. Meier (1958). Nonparametric estimation from incomplete
-        observations. Journal of the American Statistical Association 53, 457-481.
+        Raises
+        ------
+        TimelineError
+            If there is not one order a node.
         """
-        births, removed = self.fates["birth"], self.fates["removed"]
-        is_dead = removed != NULL
-        ages = np.where(is_dead, removed, self._timeline.last_step) - births
-        n_ages = int(ages.max()) + 1 if ages.size else 0
-        deaths = np.bincount(ages[is_dead], minlength=n_ages)
-        censored = np.bincount(ages[~is_dead], minlength=n_ages)
-        at_risk = len(ages) - np.cumsum(deaths + censored) + deaths + censored
-        return {
-            "age": np.arange(n_ages),
-            "at_risk": at_risk,
-            "deaths": deaths,
-            "censored": censored,
-            "survival": np.cumprod(1.0 - deaths / np.maximum(at_risk, 1)),
-        }
+        n_nodes = self._timeline.n_rows("nodes")
+        if orders is not None and np.shape(orders) != (n_nodes,):
+            raise TimelineError(
+                f"{self._timeline.path}: orders: expected shape ({n_nodes},), one a node, "
+                f"got {np.shape(orders)}"
+            )
+        return births(self._timeline, self.veins, orders)
+
+    def competitors(self, source: int | None = None) -> dict[str, NDArray]:
+        """Give the veins that ever competed for a source, or for each.
+
+        Parameters
+        ----------
+        source : int, optional
+            A source; all if left out.
+
+        Returns
+        -------
+        dict of str to ndarray
+            See :func:`vasc.timeline.competition.competitors`.
+
+        Raises
+        ------
+        TimelineError
+            If there is no such source, or the run does not record what sources perceive.
+        """
+        if source is not None:
+            self._check("source", source, self._timeline.n_rows("sources"))
+        return competitors(self._timeline, self.veins, source)
+
+    def genealogy(self, step: int = -1) -> Genealogy:
+        """Give the genealogy of areoles up to a step, the last one when not given.
+
+        Raises
+        ------
+        TimelineError
+            If the step is not recorded, or the run is one of a stem.
+        """
+        return genealogy_of(self._timeline, step)[0]
+
+    def loop_of(self, node: int) -> VeinLoop:
+        """Tell in which areole the vein of a node grew, and in which first-order loop.
+
+        Raises
+        ------
+        TimelineError
+            If there is no such node, or the run is one of a stem.
+        """
+        self._check("node", node, self._timeline.n_rows("nodes"))
+        return loop_of(self._timeline, self.veins, self._loops, node)
+
+    def table(self, name: str) -> dict[str, NDArray]:
+        """Give a table by its name, as columns of numpy.
+
+        Parameters
+        ----------
+        name : {"areoles", "births", "births_by_order", "competitors", "fates", "life_table"}
+            Which.
+
+        Returns
+        -------
+        dict of str to ndarray
+            Columns of one length; codes as numbers, null as -1.
+
+        Raises
+        ------
+        TimelineError
+            If there is no such table, or the run lacks what it is made of.
+        """
+        if name not in LINEAGE_TABLES:
+            known = ", ".join(LINEAGE_TABLES)
+            raise TimelineError(f"there is no table {name!r} of lineage; tables are {known}")
+        if name == "areoles":
+            return self._loops[0].columns()
+        if name == "births_by_order":
+            return births_by_order(self.births())
+        if name == "births":
+            return self.births()
+        if name == "competitors":
+            return self.competitors()
+        return self.fate_table() if name == "fates" else self.life_table()
+
+    def to_pandas(self, name: str) -> Any:
+        """Give a table as a ``pandas.DataFrame``; its index is the first column.
+
+        Codes become names, null stays -1.
+
+        Parameters
+        ----------
+        name : str
+            As for :meth:`table`.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        TimelineError
+            If there is no such table, or the run lacks what it is made of.
+        VascError
+            If pandas is not installed.
+        """
+        pandas = require("pandas", "tables")
+        columns: dict[str, Any] = dict(self.table(name))
+        if "fate" in columns:
+            names = [fate.name.lower() for fate in Fate]
+            columns["fate"] = pandas.Categorical.from_codes(columns["fate"], names)
+        return pandas.DataFrame(columns).set_index(next(iter(columns)))
+
+    @cached_property
+    def _loops(self) -> tuple[Genealogy, Loops | None]:
+        """The genealogy at the last step, and the areoles beside the veins if they were found."""
+        return genealogy_of(self._timeline)
 
     def _check(self, what: str, row: int, n_rows: int) -> None:
         """Refuse an id that does not exist."""

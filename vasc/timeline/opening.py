@@ -1,7 +1,7 @@
 """Opening a timeline: what is committed in it, and opening it to continue."""
 
 import contextlib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,10 +18,12 @@ from vasc.timeline.layout import (
     COMMITTED,
     COMPLETE,
     DIMENSIONS,
+    FIELDS,
     MOTION,
     PLACES,
     PROVENANCE,
     TABLES,
+    TISSUE,
     VERSION,
     Motion,
     count_column,
@@ -54,6 +56,10 @@ class Found:
         How the file tells where everything is at a step.
     dimensions : int
         2 in the plane, 3 in space.
+    has_tissue : bool
+        Whether the file holds cells.
+    n_cells, n_walls : int
+        How many, and how many walls are between them.
     """
 
     version: tuple[int, int]
@@ -65,6 +71,14 @@ class Found:
     records_perceived: bool
     motion: Motion
     dimensions: int
+    has_tissue: bool
+    n_cells: int
+    n_walls: int
+
+    @property
+    def form(self) -> tuple[Motion, int, bool]:
+        """Motion, dimensions, and whether there are cells: what the groups depend on."""
+        return self.motion, self.dimensions, self.has_tissue
 
     @property
     def frame_columns(self) -> Columns:
@@ -74,7 +88,29 @@ class Found:
     @property
     def growing_columns(self) -> dict[str, Column]:
         """All columns of this file that grow with the frames, by path."""
-        return layout.growing_columns(self.n_streams, self.motion, self.dimensions)
+        return layout.growing_columns(self.n_streams, *self.form)
+
+    def rows_a_step(self, field: str) -> int:
+        """Give the rows that a field has at every step."""
+        return layout.rows_a_step(field, self.n_cells, self.n_walls)
+
+    def committed_rows(self, starts: Mapping[str, NDArray[np.int64]]) -> dict[str, int]:
+        """Give the committed rows of the growing columns, by path.
+
+        Those of explicit positions are left out where ``starts``, the rows at which
+        their steps begin, lacks them.
+        """
+        counts = dict(zip(TABLES, self.counts, strict=True)) | {"frames": self.n_frames}
+        rows = {}
+        for path in self.growing_columns:
+            group, _, name = path.partition("/")
+            if group == FIELDS:
+                rows[path] = self.n_frames * self.rows_a_step(name)
+            elif group != MOTION:
+                rows[path] = counts[group]
+            elif name in starts:
+                rows[path] = int(starts[name][-1])
+        return rows
 
 
 def find(path: Path, file: h5py.File) -> Found:
@@ -92,39 +128,32 @@ def find(path: Path, file: h5py.File) -> Found:
     n_streams = _n_streams(path, file)
     motion = _header(path, file, MOTION, Motion)
     dimensions = _header(path, file, DIMENSIONS, int)
-    problem = layout.mismatch(dimensions, motion)
+    has_tissue = _has_tissue(path, file)
+    problem = layout.mismatch(dimensions, motion, has_tissue)
     if problem is not None:
         raise TimelineError(f"{path}: {problem}")
-    columns = layout.growing_columns(n_streams, motion, dimensions)
+    columns = layout.growing_columns(n_streams, motion, dimensions, has_tissue)
     datasets = {}
     for name, column in columns.items():
         datasets[name] = guard.open_dataset(path, file, name)
         guard.check_column(path, name, datasets[name], column)
-    counts = [0] * len(TABLES)
-    if n_frames:
-        check_length(path, datasets, "frames/step", n_frames)
-        for k, table in enumerate(TABLES):
-            name = f"frames/{count_column(table)}"
-            check_length(path, datasets, name, n_frames)
-            counts[k] = int(datasets[name][n_frames - 1])
-            if counts[k] < 0:
-                raise TimelineError(f"{path}: {name} is {counts[k]} in its last row")
-    for name in columns:
-        group = name.partition("/")[0]
-        if group != MOTION:
-            n_rows = n_frames if group == "frames" else counts[list(TABLES).index(group)]
-            check_length(path, datasets, name, n_rows)
-    return Found(
+    found = Found(
         version=version,
         n_frames=n_frames,
         is_complete=is_complete,
-        counts=tuple(counts),
+        counts=_counts(path, datasets, n_frames),
         n_streams=n_streams,
         seed=_header(path, file, "seed", int),
         records_perceived=bool(_header(path, file, "records_perceived", int)),
         motion=motion,
         dimensions=dimensions,
+        has_tissue=has_tissue,
+        n_cells=_n_rows(path, file, f"{TISSUE}/position") if has_tissue else 0,
+        n_walls=_n_rows(path, file, f"{TISSUE}/walls") if has_tissue else 0,
     )
+    for name, n_rows in found.committed_rows({}).items():
+        check_length(path, datasets, name, n_rows)
+    return found
 
 
 def find_places(
@@ -250,6 +279,36 @@ def _mark(path: Path, file: h5py.File, name: str) -> int:
     if value < 0:
         raise TimelineError(f"{path}: {name} is {value}")
     return value
+
+
+def _has_tissue(path: Path, file: h5py.File) -> bool:
+    """Tell whether a file holds cells; one that does not say so holds none."""
+    value = 0 if TISSUE not in file.attrs else _header(path, file, TISSUE, int)
+    if value not in (0, 1):
+        raise TimelineError(f"{path}: the attribute {TISSUE!r} is {value}, must be 0 or 1")
+    return value == 1
+
+
+def _n_rows(path: Path, file: h5py.File, name: str) -> int:
+    """Give the number of rows of an array that never grows."""
+    dataset = guard.open_dataset(path, file, name)
+    guard.check_column(path, name, dataset, layout.STATIC[name])
+    return int(dataset.shape[0])
+
+
+def _counts(path: Path, datasets: dict[str, h5py.Dataset], n_frames: int) -> tuple[int, ...]:
+    """Give the committed rows of every table."""
+    if not n_frames:
+        return (0,) * len(TABLES)
+    check_length(path, datasets, "frames/step", n_frames)
+    counts = []
+    for table in TABLES:
+        name = f"frames/{count_column(table)}"
+        check_length(path, datasets, name, n_frames)
+        counts.append(int(datasets[name][n_frames - 1]))
+        if counts[-1] < 0:
+            raise TimelineError(f"{path}: {name} is {counts[-1]} in its last row")
+    return tuple(counts)
 
 
 def _n_streams(path: Path, file: h5py.File) -> int:

@@ -5,6 +5,7 @@ from typing import NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from vasc.fields import Fields
 from vasc.state import Places, State
 from vasc.streams import Streams
 
@@ -21,6 +22,7 @@ class Pending(NamedTuple):
     motion: NDArray[np.float64] | None
     outline_motion: NDArray[np.float64] | None
     places: Places | None
+    fields: Fields | None
     streams: NDArray[np.uint64]
 
     @classmethod
@@ -33,5 +35,6 @@ class Pending(NamedTuple):
             state.motion,
             state.outline_motion,
             state.places,
+            state.fields,
             streams.state(),
         )

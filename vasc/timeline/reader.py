@@ -10,18 +10,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vasc.arrays import NULL, Ids, Points, Table
-from vasc.domain import Blade
+from vasc.domain import Blade, Tissue
 from vasc.errors import OutlineError, TimelineError
+from vasc.fields import Fields
 from vasc.state import Tables, table_columns
 from vasc.timeline import guard, layout, opening
 from vasc.timeline.access import OpenFile
 from vasc.timeline.areas import areole_areas
+from vasc.timeline.cards import timeline_card
 from vasc.timeline.data_frames import data_frame
 from vasc.timeline.frame import Frame
 from vasc.timeline.layout import MOTION, TABLES, Motion, count_column
 from vasc.timeline.lineage import Lineage
 from vasc.timeline.occurrences import Events
 from vasc.timeline.provenance import sessions
+from vasc.timeline.tissues import RecordedPast, read_fields, read_tissue
 
 
 class Timeline:
@@ -64,6 +67,8 @@ class Timeline:
     def __repr__(self) -> str:
         state = "complete" if self.is_complete else "not complete"
         return f"Timeline({str(self.path)!r}, frames={self.n_frames}, {state})"
+
+    _repr_html_ = timeline_card
 
     def close(self) -> None:
         """Close the file; what was read already stays usable."""
@@ -191,6 +196,12 @@ class Timeline:
         return self.opened.read_array(layout.STEM_RING)
 
     @cached_property
+    def tissue(self) -> Tissue | None:
+        """The cells and the walls between them; None in a run without cells."""
+        found = self.opened.found
+        return read_tissue(self.opened, self.initial_blade) if found.has_tissue else None
+
+    @cached_property
     def frames(self) -> dict[str, NDArray]:
         """All columns of ``frames``, row number = step."""
         columns = self.opened.found.frame_columns
@@ -291,6 +302,16 @@ class Timeline:
         start, stop = self._starts[name][step : step + 2].tolist()
         return self.opened.read(f"{MOTION}/{name}", start, stop)
 
+    def fields(self, step: int = -1) -> Fields:
+        """Give auxin and its carriers in the cells and walls of a tissue at a step.
+
+        Raises
+        ------
+        TimelineError
+            If the step is not recorded, or the run has no cells.
+        """
+        return read_fields(self.opened, self._step(step))
+
     def areole_areas(self) -> dict[str, NDArray]:
         """Give the area of every areole at every step of its life.
 
@@ -335,10 +356,13 @@ class Timeline:
                 self.opened.read(f"{name}/{column}", 0, n_rows, out=array[:n_rows])
             table.n_rows = n_rows
             filled[name] = table
-        return Tables(self.dimensions, filled)
+        past = RecordedPast(self.opened) if self.opened.found.has_tissue else None
+        return Tables(self.dimensions, filled, past)
 
-    def to_pandas(self, name: str) -> Any:
+    def to_pandas(self, name: str, step: int = -1) -> Any:
         """Give a table, or ``frames``, as a ``pandas.DataFrame``; its index is the id.
+
+        Of a tissue also ``cells`` and ``walls``, with their fields at a step.
 
         Codes become names, points one column an axis (``position_x``,
         ``position_y``, in space ``position_z``), null stays -1.
@@ -350,7 +374,7 @@ class Timeline:
         VascError
             If pandas is not installed.
         """
-        return data_frame(self, name)
+        return data_frame(self, name, step)
 
     @property
     def n_places(self) -> dict[str, int]:

@@ -199,15 +199,18 @@ def descent(record: Record) -> Findings:
     is_seed = origins == Origin.SEED
     is_bad = is_seed & (parents != NULL)
     yield from bad_rows("descent", "nodes/parent", is_bad, parents, "a seed has no parent")
-    is_bad = np.isin(origins, [Origin.EXTENSION, Origin.REFINEMENT]) & (parents == NULL)
+    is_bad = np.isin(origins, [Origin.EXTENSION, Origin.REFINEMENT, Origin.CANAL]) & (
+        parents == NULL
+    )
     yield from bad_rows("descent", "nodes/parent", is_bad, parents, "an extension has a parent")
     has_parent = parents != NULL
     is_bad = has_parent & (parents >= np.arange(len(parents)))
     yield from bad_rows("descent", "nodes/parent", is_bad, parents, "must be an earlier row")
     # refinement may replace what a step has made; veins grow from what it has replaced, and
     # from a primordium, in the same step;
-    # a source may be reached in the step that brought the vein near
-    is_quick = np.isin(origins, [Origin.REFINEMENT, Origin.SOURCE])
+    # a source may be reached in the step that brought the vein near,
+    # and the cells of a canal differentiate together
+    is_quick = np.isin(origins, [Origin.REFINEMENT, Origin.SOURCE, Origin.CANAL])
     quick_parents = [Origin.REFINEMENT, Origin.PRIMORDIUM]
     is_quick |= has_parent & np.isin(origins[np.maximum(parents, 0)], quick_parents)
     margin = np.where(is_quick, 0, 1)

@@ -17,7 +17,7 @@ from typing import Any
 from vasc.errors import TimelineError
 from vasc.timeline import guard, layout
 from vasc.timeline.access import OpenFile
-from vasc.timeline.layout import MARKS, MOTION, PROVENANCE, TABLES, TEXTS, VERSION
+from vasc.timeline.layout import MARKS, PROVENANCE, TEXTS, VERSION
 from vasc.timeline.opening import find_places
 from vasc.timeline.storage import Store, beside, publish, reason, stated_end
 
@@ -114,16 +114,13 @@ def _replace(old: OpenFile) -> None:
 def _copy(old: OpenFile, store: Store) -> None:
     """Write what is committed in the old file into a new one."""
     path, file, found = old.path, old.file, old.found
-    for group in ("/", *layout.groups(found.motion, found.dimensions)):
+    for group in ("/", *layout.groups(*found.form)):
         store.add_group_like(group, guard.open_item(path, file, group))
-    for name in (*TEXTS, *layout.static_columns(found.dimensions), *MARKS):
+    for name in (*TEXTS, *layout.static_columns(found.dimensions, found.has_tissue), *MARKS):
         store.copy(name, guard.open_dataset(path, file, name))
     starts = find_places(path, file, found, old.read)
-    counts = dict(zip(TABLES, found.counts, strict=True))
-    for name in found.growing_columns:
-        group, _, column = name.partition("/")
-        n_rows = found.n_frames if group == "frames" else counts.get(group, 0)
-        _copy_rows(old, store, name, int(starts[column][-1]) if group == MOTION else n_rows)
+    for name, n_rows in found.committed_rows(starts).items():
+        _copy_rows(old, store, name, n_rows)
     _copy_records(old, store)
 
 

@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 
 from vasc.errors import OutlineError, TimelineError
-from vasc.timeline import areole_rules, guard, layout, motion_rules, rules
+from vasc.timeline import areole_rules, guard, layout, motion_rules, rules, tissue_rules
 from vasc.timeline.provenance import schema
 from vasc.timeline.reader import Timeline
 from vasc.timeline.rules import Findings, Record, bad_rows
@@ -65,9 +65,12 @@ def _header(record: Record) -> Findings:
     for name in ("model", "growth"):
         if not guard.attribute(record.file, name):
             yield f"[header] the attribute {name!r} is missing or empty"
-    dimensions = record.timeline.dimensions
-    for group in layout.groups(record.timeline.motion, dimensions):
+    dimensions, form = record.timeline.dimensions, record.timeline.opened.found.form
+    for group in layout.groups(*form):
         record.timeline.opened.item(group)
+    for group in (one for one in layout.TISSUE_MEANINGS if one not in layout.groups(*form)):
+        if group in record.file:
+            yield f"[header] {group}: a file without a tissue has no such group"
     for group in (one for d, one in layout.DOMAINS.items() if d != dimensions):
         if group in record.file:
             yield f"[header] {group}: a file of {dimensions} dimensions has no such group"
@@ -138,10 +141,11 @@ def _blade(record: Record) -> Findings:
 
 
 STAGES = (
-    (_links, _header, _texts, _blade, _stem),
+    (_links, _header, _texts, _blade, _stem, tissue_rules.tissue),
     (rules.frames,),
     (rules.filled, rules.codes, rules.steps, rules.ids, motion_rules.explicit),
     (rules.descent, rules.segments, motion_rules.positions, rules.states, rules.ends),
+    (tissue_rules.fields,),
     (areole_rules.areoles, areole_rules.boundaries, areole_rules.retired),
 )
 """All rules; those of a stage index with what the stages before have checked."""

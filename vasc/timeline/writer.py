@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vasc.arrays import Ids
-from vasc.domain import Blade
+from vasc.domain import Blade, Tissue
 from vasc.errors import TimelineError
 from vasc.state import State, Tables
 from vasc.streams import Streams
@@ -21,11 +21,13 @@ from vasc.timeline.creation import create_file
 from vasc.timeline.layout import (
     COMMITTED,
     COMPLETE,
+    FIELDS,
     MOTION,
     PROVENANCE,
     TABLES,
     Motion,
     count_column,
+    form_of,
     motion_of,
 )
 from vasc.timeline.pending import FRAME_FIELDS, Pending
@@ -73,8 +75,9 @@ class Recorder:
         self._was_complete = found.is_complete
         self._is_finished = found.is_complete
         self._records_perceived = found.records_perceived
-        self._form = (found.motion, found.dimensions)
+        self._form = (found.motion, found.dimensions, (found.n_cells, found.n_walls))
         self._written = list(found.counts)
+        self._committed = found.committed_rows(starts)
         self._placed = {name: int(rows[-1]) for name, rows in starts.items()}
         self._columns: dict[str, GrowingColumn | CompressedColumn] = {
             name: store.column(name) for name in found.growing_columns
@@ -100,6 +103,7 @@ class Recorder:
         motion: Motion = Motion.AFFINE,
         dimensions: int = 2,
         base_ring: Ids | None = None,
+        tissue: Tissue | None = None,
         units: Mapping[str, str | float] | None = None,
         force: bool = False,
         record_perceived: bool = True,
@@ -128,6 +132,8 @@ class Recorder:
             2 in the plane, 3 in space; 3 goes with ``Motion.NONE``, and only so.
         base_ring : ndarray of shape (k,), int32, optional
             Ids of the nodes of the ring at the base of a stem.
+        tissue : Tissue, optional
+            The cells, if the states have fields.
         units : mapping of str to str or float, optional
             What a length and a time mean.
         force : bool
@@ -140,7 +146,7 @@ class Recorder:
         OutputError
             If the file exists and ``force`` is not set, or cannot be made.
         TimelineError
-            If blade, ring, motion and dimensions do not go together.
+            If blade, ring, motion, dimensions and tissue do not go together.
         """
         names = tuple(stream_names)
         first = begin_session(0, kind="run", seed=seed, parameters=config)
@@ -158,6 +164,7 @@ class Recorder:
             base_ring=base_ring,
             motion=motion,
             dimensions=dimensions,
+            tissue=tissue,
             stream_names=names,
             units={} if units is None else units,
             first_record=json.dumps(first),
@@ -203,15 +210,15 @@ class Recorder:
         Raises
         ------
         TimelineError
-            If the state is not the next step, tells its motion in another way than the
-            file, is not of its dimensions, or the recorder is closed.
+            If the state is not the next step, is of another form than the file, or the
+            recorder is closed.
         OutputError
             If the file cannot be written.
         """
         started = time.perf_counter()
         pending = self._pending
         is_next = state.step == self.n_frames + len(pending)
-        if not is_next or (motion_of(state), state.dimensions) != self._form or self._is_closed:
+        if not is_next or form_of(state) != self._form or self._is_closed:
             self._refuse(state)
         if not pending:
             self._oldest = started
@@ -272,15 +279,17 @@ class Recorder:
         if self._is_closed:
             raise TimelineError(f"{self.path}: the recorder is closed")
         expected = self.n_frames + len(self._pending)
-        step, (motion, dimensions) = state.step, self._form
+        step, (motion, dimensions, cells) = state.step, self._form
         if step != expected:
             raise TimelineError(f"{self.path}: step {step} came, step {expected} was expected")
         if motion_of(state) != motion:
-            its = motion_of(state)
-            raise TimelineError(f"{self.path}: step {step} is {its}, the file is {motion}")
-        raise TimelineError(
-            f"{self.path}: step {step} has {state.dimensions} dimensions, the file {dimensions}"
-        )
+            problem = f"is {motion_of(state)}, the file is {motion}"
+        elif state.dimensions != dimensions:
+            problem = f"has {state.dimensions} dimensions, the file {dimensions}"
+        else:
+            own = form_of(state)[2]
+            problem = "has {} cells and {} walls, the file {} and {}".format(*own, *cells)
+        raise TimelineError(f"{self.path}: step {step} {problem}")
 
     def _commit(self) -> None:
         """Write the pending frames and their rows; only then the frame counter."""
@@ -296,6 +305,7 @@ class Recorder:
             with self._store.writing():
                 self._write_rows(self._tables, counts[-1].tolist())
                 placed = self._write_places()
+                self._write_fields()
                 self._write_frames(counts)
                 if self._was_complete:
                     self._store.mark(COMPLETE, 0)
@@ -344,16 +354,18 @@ class Recorder:
             placed[name] = start + len(rows)
         return placed
 
+    def _write_fields(self) -> None:
+        """Write the fields of the pending frames."""
+        for path in (one for one in self._columns if one.startswith(f"{FIELDS}/")):
+            name, column = path.partition("/")[2], self._columns[path]
+            rows = np.concatenate([getattr(frame.fields, name) for frame in self._pending])
+            start = self.n_frames * (len(rows) // len(self._pending))
+            column.write(start, np.ascontiguousarray(rows, dtype=column.dtype))
+
     def _cut(self) -> None:
         """Drop rows that were written and not committed."""
-        for table, n_rows in zip(TABLES, self._written, strict=True):
-            for name in TABLES[table]:
-                self._columns[f"{table}/{name}"].cut(n_rows)
-        for name, n_rows in self._placed.items():
-            self._columns[f"{MOTION}/{name}"].cut(n_rows)
-        for name, column in self._columns.items():
-            if name.startswith("frames/"):
-                column.cut(self.n_frames)
+        for name, n_rows in self._committed.items():
+            self._columns[name].cut(n_rows)
         self._store.flush()
 
     def _add_record(self, record: Mapping[str, Any]) -> None:

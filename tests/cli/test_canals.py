@@ -1,0 +1,192 @@
+"""The verbs on a run of canalization: what they say before and after, and what they refuse."""
+
+import json
+
+import h5py
+import numpy as np
+import pytest
+
+from vasc.cli import main
+from vasc.timeline import Timeline
+
+CANALS = """kind = "canalization"
+seed = 3
+title = "Three canals"
+
+[domain]
+columns = 13
+rows = 9
+
+[veins]
+lines = [[[2, 8]], [[10, 8]]]
+
+[placement]
+points = [[4, 2], [9, 3], [1, 1]]
+rounds = [1, 2, 2]
+
+[transport]
+kind = "facilitated"
+"""
+
+
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("canals")
+    (folder / "canals.toml").write_text(CANALS)
+    output = ["-o", str(folder / "canals.h5"), "--no-figure", "--quiet"]
+    assert main(["run", str(folder / "canals.toml"), *output]) == 0
+    return folder
+
+
+@pytest.fixture
+def canals(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "canals.toml").write_text(CANALS)
+    return tmp_path
+
+
+def test_a_run_says_what_it_runs_and_what_came_of_it(canals, capsys):
+    assert main(["run", "canals.toml", "--no-figure", "--set", "background=0.25"]) == 0
+    said = capsys.readouterr()
+    assert said.err == ""
+    lines = said.out.splitlines()
+    assert lines[0] == "canals: canalization, facilitated transport, seed 3"
+    assert lines[1] == "  117 cells, 212 walls"
+    # 9 bytes a cell, 24 a wall
+    assert lines[2].startswith("  each step takes up to 6.1 kB of the file, 100 steps up to 614")
+    assert lines[3].startswith("  A = 3000 (gain of the feedback): canals form")
+    assert "saturation = 3000: a canal is about 1 cell wide" in lines[4]
+    assert lines[5].startswith("  q = 0.25 (")
+    found = dict(line.split("  ", 1) for line in lines[6:])
+    with Timeline("canals.h5") as timeline:
+        assert int(found["steps"]) == timeline.last_step
+        assert found["time"].strip() == f"{timeline.frame().time:.6g}"
+    assert found["cells"].strip() == "117, with 212 walls between them"
+    assert found["sources"].strip() == "3 placed, 3 connected to a vein"
+    assert found["rounds unsettled"].strip() == found["vortices"].strip() == "0"
+    assert "the tissue is at rest" in found["ended"]
+    # what only leaves have
+    assert not {"joins", "stalls resolved", "nodes outside the blade"} & set(found)
+
+
+@pytest.mark.parametrize(
+    ("transport", "said", "warned"),
+    [
+        (
+            ["kind=polar", "gain=300.0", "saturation=30.0"],
+            ["A = 300", "A / saturation = 10, saturation = 30: a canal is about 2.2 cells wide"],
+            "",
+        ),
+        (["kind=pool"], ["A = 30", "P_tot = 10 (carriers of a cell)"], ""),
+        (
+            ["kind=polar", "gain=3.0", "saturation=none"],
+            ["A = 3 ", "no saturation"],
+            "warning: transport.saturation = 'none': flux in closed loops may grow without bound",
+        ),
+    ],
+)
+def test_a_run_names_the_numbers_of_its_model(canals, capsys, transport, said, warned):
+    changes = [word for one in transport for word in ("--set", f"transport.{one}")]
+    assert main(["run", "canals.toml", "--no-figure", "--steps", "2", *changes]) == 0
+    written = capsys.readouterr()
+    for words in said:
+        assert words in written.out
+    assert warned in written.err
+    assert bool(warned) == bool(written.err)
+    assert "not finished; `vasc resume canals.h5` goes on" in written.out
+
+
+def test_the_summary_for_scripts_agrees_with_the_file(canals, capsys):
+    assert main(["run", "canals.toml", "--no-figure", "--json"]) == 0
+    summary = json.loads(capsys.readouterr().out)
+    with Timeline("canals.h5") as timeline:
+        assert summary["steps"] == timeline.last_step
+        assert summary["time"] == timeline.frame().time
+        counts = timeline.events.counts()
+    assert (summary["cells"], summary["walls"]) == (117, 212)
+    assert summary["connected"] == counts["source_removed"] == 3
+    assert summary["vortices"] == summary["unsettled"] == 0
+    assert summary["stop_reason"] == "at_rest"
+    assert "tissue" not in summary
+
+
+def test_a_run_of_some_steps_is_resumed_to_the_same_fields(canals, recorded, capsys):
+    assert main(["run", "canals.toml", "--no-figure", "-q", "--steps", "30"]) == 0
+    assert main(["verify", "canals.h5", "-q"]) == 0
+    assert main(["resume", "canals.h5", "--steps", "9", "-q"]) == 0
+    assert main(["resume", "canals.h5"]) == 0
+    assert "3 connected to a vein" in capsys.readouterr().out
+    assert main(["show", "canals.h5", "--check"]) == 0
+    with Timeline("canals.h5") as resumed, Timeline(recorded / "canals.h5") as whole:
+        assert resumed.n_frames == whole.n_frames
+        for step in range(whole.n_frames):
+            for rows, expected in zip(resumed.fields(step), whole.fields(step), strict=True):
+                np.testing.assert_array_equal(rows, expected)
+
+
+def test_verify_names_the_step_the_field_and_the_row(canals, recorded, capsys):
+    (canals / "run.h5").write_bytes((recorded / "canals.h5").read_bytes())
+    with h5py.File("run.h5", "r+") as file:
+        file["fields/flux"][20 * 212 + 7] += 1e-9
+    assert main(["verify", "run.h5"]) == 1
+    assert "first difference: step 20, fields/flux row 7: recorded" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["show"], ["Three canals", "canalization", "source_removed", "tissue is at rest"]),
+        (["show", "--check"], ["keeps to its specification"]),
+        (["events", "--kind", "canals_settled"], ["canals_settled  -1       -1"]),
+        (["lineage", "--source", "0"], ["removed", "nearest_node"]),
+        (["lineage", "--node", "3"], ["ancestors", "seed"]),
+        (["stats"], ["vein_length", "components"]),
+    ],
+)
+def test_the_other_verbs_know_the_run(recorded, capsys, arguments, words):
+    verb, *options = arguments
+    assert main([verb, str(recorded / "canals.h5"), *options]) == 0
+    said = capsys.readouterr().out
+    for word in words:
+        assert word in said
+    assert main([verb, str(recorded / "canals.h5"), *options, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)
+
+
+def test_show_gives_the_size_of_the_tissue(recorded, capsys):
+    assert main(["show", str(recorded / "canals.h5"), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert (found["cells"], found["walls"]) == (117, 212)
+
+
+def test_a_run_on_cells_has_no_growth_to_draw(recorded, tmp_path, capsys):
+    path = str(recorded / "canals.h5")
+    assert main(["render", path, "-o", str(tmp_path / "a.png"), "--growth"]) == 2
+    assert "kind = 'canalization': has no blade that grows" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ("domain.columns=2000000", "domain.columns = 2000000"),
+        ("transport.gain=-1", "transport.gain = -1"),
+        ("background=-1", "background = -1"),
+    ],
+)
+def test_what_cannot_be_run_is_refused_by_its_key(canals, capsys, change, words):
+    assert main(["run", "canals.toml", "--no-figure", "--set", change]) == 2
+    said = capsys.readouterr()
+    assert words in said.err
+    assert "Traceback" not in said.err
+    assert not (canals / "canals.h5").exists()
+
+
+def test_a_tissue_that_the_disk_has_no_room_for_is_refused(canals, capsys, monkeypatch):
+    monkeypatch.setattr("shutil.disk_usage", lambda path: (10**9, 10**9, 60_000))
+    assert main(["run", "canals.toml", "--no-figure"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line == (
+        "canals.h5: the disk has no room for it: each step of domain, 117 cells and 212 walls,"
+        " takes up to 6,141 bytes, and 60,000 are free; at least 100 steps must fit"
+    )
+    assert not (canals / "canals.h5").exists()

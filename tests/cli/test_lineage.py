@@ -1,0 +1,139 @@
+"""``vasc lineage``: its tables for people, as CSV and as JSON, and what it refuses."""
+
+import csv
+import io
+import json
+
+import numpy as np
+import pytest
+from reference.stem_run import STEM
+
+from vasc.cli import main
+from vasc.timeline import Timeline
+
+TABLES = {
+    "--life-table": "life_table",
+    "--fates": "fates",
+    "--births": "births",
+    "--genealogy": "areoles",
+}
+
+
+@pytest.fixture(scope="module")
+def leaf(recorded):
+    """Give the recorded run."""
+    return str(recorded / "leaf.h5")
+
+
+def output(arguments, capsys):
+    """Give what a verb writes when all is well."""
+    assert main(arguments) == 0
+    said = capsys.readouterr()
+    assert said.err == ""
+    return said.out
+
+
+@pytest.mark.parametrize(("option", "name"), TABLES.items())
+def test_a_table_is_the_same_in_json_csv_and_python(leaf, option, name, capsys):
+    with Timeline(leaf) as timeline:
+        table = timeline.lineage.table(name)
+    found = json.loads(output(["lineage", leaf, option, "--json"], capsys))
+    rows = list(csv.DictReader(io.StringIO(output(["lineage", leaf, option, "--csv"], capsys))))
+    n_rows = len(next(iter(table.values())))
+    assert found["found"] == len(found[name]) == len(rows) == n_rows > 0
+    assert list(rows[0]) == list(found[name][0]) == list(table)
+    for column, values in table.items():
+        if column == "fate":
+            assert {row[column] for row in found[name]} <= {"reached", "ended", "joined"}
+            continue
+        told = [row[column] for row in found[name]]
+        written = [row[column] for row in rows]
+        for value, in_json, in_csv in zip(values.tolist(), told, written, strict=True):
+            is_null = (value == -1 and values.dtype.kind == "i") or np.isnan(value)
+            assert in_json == (None if is_null else value)
+            assert in_csv == ("" if is_null else str(value))
+
+
+def test_births_are_summed_up_by_order_for_people(leaf, capsys):
+    lines = output(["lineage", leaf, "--births"], capsys).splitlines()
+    assert lines[0].split() == ["order", "veins", "first", "median", "last"]
+    by_order = json.loads(output(["lineage", leaf, "--births", "--json"], capsys))["by_order"]
+    assert [int(line.split()[0]) for line in lines[1:]] == [row["order"] for row in by_order]
+
+
+def test_competitors_of_a_source(leaf, capsys):
+    found = json.loads(output(["lineage", leaf, "--competitors", "4", "--json"], capsys))
+    with Timeline(leaf) as timeline:
+        table = timeline.lineage.competitors(4)
+    assert [row["vein"] for row in found["competitors"]] == table["vein"].tolist() != []
+    text = output(["lineage", leaf, "--competitors", "4"], capsys)
+    assert text.splitlines()[0].split() == list(table)
+
+
+def test_a_limit_shortens_a_table(leaf, capsys):
+    text = output(["lineage", leaf, "--fates", "--limit", "2"], capsys).splitlines()
+    assert len(text) == 4
+    assert text[-1].startswith("... and ")
+    found = json.loads(output(["lineage", leaf, "--fates", "--limit", "2", "--json"], capsys))
+    assert len(found["fates"]) == 2 < found["found"]
+
+
+def test_the_loop_of_a_vein(leaf, capsys):
+    with Timeline(leaf) as timeline:
+        node = timeline.n_rows("nodes") - 1
+        known = timeline.lineage.loop_of(node)
+    found = json.loads(output(["lineage", leaf, "--loop", str(node), "--json"], capsys))
+    assert (found["vein"], found["order"]) == (known.vein, known.order)
+    assert found["areole"] == (None if known.areole < 0 else known.areole)
+
+
+def test_an_areole_that_was_found_is_told_like_one_that_was_recorded(leaf, capsys):
+    told = json.loads(output(["lineage", leaf, "--areole", "0", "--json"], capsys))
+    with Timeline(leaf) as timeline:
+        tree = timeline.lineage.genealogy()
+    assert (told["birth"], told["segment"]) == (tree.births[0], tree.segments[0])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "part"),
+    [
+        (["--fates", "--births"], "or one table"),
+        (["--fates", "--node", "1"], "or one table"),
+        (["--node", "1", "--csv"], "--csv is for tables"),
+        (["--fates", "--csv", "--json"], "excludes --json"),
+        (["--competitors", "99999"], "there is no source 99999"),
+        (["--loop", "999999"], "there is no node 999999"),
+    ],
+)
+def test_what_cannot_be_answered_is_told_in_one_line(leaf, arguments, part, capsys):
+    assert main(["lineage", leaf, *arguments]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert part in line
+
+
+def test_a_stem_has_tables_of_its_veins_and_no_areoles(tmp_path, capsys):
+    (tmp_path / "stem.toml").write_text(STEM)
+    run = str(tmp_path / "stem.h5")
+    assert main(["run", str(tmp_path / "stem.toml"), "-o", run, "--no-figure", "-q"]) == 0
+    capsys.readouterr()
+    births = json.loads(output(["lineage", run, "--births", "--json"], capsys))
+    assert births["found"] > 0
+    for option in (["--genealogy"], ["--loop", "0"], ["--areole", "0"]):
+        assert main(["lineage", run, *option]) == 2
+        assert "is a stem" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("form", ["--genealogy", "--births"])
+def test_lineage_is_drawn(leaf, form, tmp_path, capsys):
+    pictures = []
+    for name in ("first.png", "second.png"):
+        assert "written" in output(["render", leaf, "-o", str(tmp_path / name), form], capsys)
+        pictures.append((tmp_path / name).read_bytes())
+    assert pictures[0] == pictures[1]
+    young = str(tmp_path / "young.svg")
+    assert "written" in output(["render", leaf, "-o", young, "--births", "--step", "9"], capsys)
+    assert main(["render", leaf, "-o", str(tmp_path / "x.png"), form, "--unroll"]) == 2
+    assert "exclude each other" in capsys.readouterr().err
+    steps = ["--step", "1", "--step", "2"]
+    assert main(["render", leaf, "-o", str(tmp_path / "x.png"), form, *steps]) == 2
+    assert f"{form} shows one step" in capsys.readouterr().err

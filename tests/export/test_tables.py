@@ -1,0 +1,119 @@
+"""Tables as CSV, read by pandas, and as data frames."""
+
+import json
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from vasc.export import data_frames, export, specimen
+from vasc.export.tables import DESCRIPTION, TABLES
+from vasc.timeline import Timeline
+
+
+def read(folder):
+    """Read all tables of a folder."""
+    return {
+        name: pd.read_csv(folder / f"{name}.csv", index_col=None if name == "states" else 0)
+        for name in TABLES
+    }
+
+
+def test_pandas_reads_what_the_timeline_holds(timeline, tmp_path):
+    tables = read(export(timeline, tmp_path / "a.csv"))
+    scale = 4.0 if timeline.units else 1.0
+    for name in ("nodes", "segments", "sources", "events", "areoles", "states"):
+        own = timeline.to_pandas(name)
+        assert len(tables[name]) == len(own)
+        for column in own.columns:
+            if (name, column) == ("states", "state"):
+                continue
+            values = own[column]
+            is_length = column.startswith(("position", "material"))
+            if str(values.dtype) == "category":
+                assert tables[name][column].tolist() == values.astype(str).tolist()
+            else:
+                np.testing.assert_allclose(
+                    tables[name][column].astype(float), values * (scale if is_length else 1)
+                )
+    frames = timeline.to_pandas("frames")
+    np.testing.assert_array_equal(tables["frames"]["n_nodes"], frames["n_nodes"])
+    assert tables["frames"].index.tolist() == list(range(timeline.n_frames))
+
+
+def test_states_have_names(timeline, tmp_path):
+    states = read(export(timeline, tmp_path / "a.csv"))["states"]
+    words = {
+        "source": {"active", "tagged", "drained"},
+        "canal": {"ground", "pre_pattern", "inbound", "outbound", "vein", "arrested"},
+        "node": {"vein"},
+    }
+    for what, rows in states.groupby("what"):
+        assert set(rows["state"]) <= words[what]
+    assert len(states) == timeline.n_rows("states")
+
+
+def test_nodes_and_segments_have_their_place_and_width_at_the_step(timeline, tmp_path):
+    tables, found = read(export(timeline, tmp_path / "a.csv")), specimen(timeline)
+    nodes, segments = tables["nodes"].loc[found.ids], tables["segments"].loc[found.segment_ids]
+    # pandas before 3 reads numbers to the last digit but one
+    np.testing.assert_allclose(nodes[list(found.axes)], found.positions, rtol=1e-14)
+    np.testing.assert_allclose(nodes["radius"], found.radii, rtol=1e-14)
+    for name in ("order", "width", "length"):
+        np.testing.assert_allclose(segments[name], getattr(found, f"{name}s"), rtol=1e-14)
+    # what refinement has replaced is there, without a place
+    replaced = tables["nodes"].drop(found.ids)
+    assert replaced["x"].isna().all()
+
+
+def test_tables_end_with_the_step(runs, tmp_path):
+    tables = read(export(runs.closed, tmp_path / "a.csv", 20))
+    assert tables["frames"].index[-1] == 20
+    with Timeline(runs.closed) as timeline:
+        counts = timeline.frames
+        for name in TABLES[1:]:
+            assert len(tables[name]) == counts[f"n_{name}"][20]
+
+
+def test_every_column_is_described(timeline, tmp_path):
+    folder = export(timeline, tmp_path / "a.csv")
+    about = json.loads((folder / DESCRIPTION).read_text())
+    found = specimen(timeline)
+    assert found.run in about["dc:title"]
+    assert f"step {found.step}" in about["dc:description"]
+    assert [table["url"] for table in about["tables"]] == [f"{name}.csv" for name in TABLES]
+    for table in about["tables"]:
+        header = (folder / table["url"]).read_text().partition("\n")[0].split(",")
+        described = table["tableSchema"]["columns"]
+        assert [column["name"] for column in described] == header
+        assert all(column["dc:description"] for column in described)
+        in_length = {column["name"] for column in described if "unit" in column}
+        assert {column["unit"] for column in described if "unit" in column} <= {found.unit.name}
+        if table["url"] == "nodes.csv":
+            assert in_length >= {"x", "y", "radius", "position_x", "material_y"}
+            assert "birth" not in in_length
+
+
+def test_data_frames_are_the_tables(runs, tmp_path):
+    with Timeline(runs.areoles) as timeline:
+        found = data_frames(timeline)
+    tables = read(export(runs.areoles, tmp_path / "a.csv"))
+    assert set(found) == set(TABLES)
+    for name, frame in found.items():
+        assert frame.index.name == tables[name].index.name
+        pd.testing.assert_frame_equal(
+            frame, tables[name], check_dtype=False, check_index_type=False
+        )
+
+
+def test_data_frames_need_pandas(runs, monkeypatch):
+    import sys
+
+    from vasc.errors import VascError
+
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with (
+        Timeline(runs.open) as timeline,
+        pytest.raises(VascError, match=r"vasc\[tables\]"),
+    ):
+        data_frames(timeline)

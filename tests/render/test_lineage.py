@@ -1,0 +1,100 @@
+"""Pictures of lineage: colours, places and forks are those of the tables."""
+
+import numpy as np
+import pytest
+from matplotlib.collections import LineCollection, PolyCollection
+
+from vasc.config import load
+from vasc.errors import VascError
+from vasc.experiment import run
+from vasc.render import draw_births, draw_genealogy
+from vasc.render.genealogy import MOST_TREES, _shown
+from vasc.timeline import Genealogy, Timeline
+
+
+@pytest.fixture(scope="module")
+def timeline(tmp_path_factory):
+    """The first leaf of Arabidopsis until its first loops are split."""
+    path = tmp_path_factory.mktemp("leaf") / "leaf.h5"
+    run(load("arabidopsis-first-leaf"), path, steps=300)
+    with Timeline(path) as opened:
+        yield opened
+
+
+def collections(axes, kind):
+    return [each for each in axes.collections if type(each) is kind]
+
+
+def test_every_whole_areole_is_filled_and_every_life_is_a_line(timeline):
+    tree = timeline.lineage.genealogy()
+    blade, trees = draw_genealogy(timeline).axes
+    (filled,) = collections(blade, PolyCollection)
+    assert len(filled.get_paths()) == len(tree.boundaries)
+    forks, lives = collections(trees, LineCollection)
+    assert len(lives.get_segments()) == tree.n_areoles
+    assert len(forks.get_segments()) == int((tree.parents >= 0).sum())
+    starts = sorted(line[0, 0] for line in lives.get_segments())
+    assert starts == sorted(tree.births.tolist())
+
+
+def test_a_loop_has_one_hue_and_its_parts_are_paler(timeline):
+    from matplotlib.colors import rgb_to_hsv, to_rgb
+
+    tree = timeline.lineage.genealogy()
+    shown = _shown(tree)
+    hsv = rgb_to_hsv([to_rgb(color) for color in shown.colors])
+    for areole, parent in enumerate(tree.parents.tolist()):
+        if parent >= 0:
+            # colours are of 8 bits
+            assert hsv[areole, 0] == pytest.approx(hsv[parent, 0], abs=0.03)
+            assert hsv[areole, 1] < hsv[parent, 1]
+
+
+def test_parts_stand_beside_each_other_and_what_was_split_in_their_middle(timeline):
+    tree = timeline.lineage.genealogy()
+    heights = _shown(tree).heights
+    whole = np.flatnonzero(tree.splits < 0)
+    assert len(np.unique(heights[whole])) == len(whole)
+    for areole in np.flatnonzero(tree.splits >= 0).tolist():
+        parts = heights[tree.parents == areole]
+        assert heights[areole] == pytest.approx(parts.mean())
+
+
+def test_of_many_loops_those_with_most_parts_are_shown():
+    n_loops = MOST_TREES + 10
+    parents = np.array([-1] * n_loops + [n_loops - 1] * 2, dtype=np.int32)
+    steps = np.arange(n_loops + 2, dtype=np.int32)
+    splits = np.full(n_loops + 2, -1, dtype=np.int32)
+    splits[n_loops - 1] = n_loops
+    tree = Genealogy(steps, parents, steps, splits, {})
+    shown = _shown(tree)
+    assert len(shown.loops) == MOST_TREES
+    assert n_loops - 1 in shown.loops
+    assert np.isnan(shown.heights).sum() == n_loops - MOST_TREES
+
+
+def test_without_a_loop_there_is_no_genealogy(timeline):
+    with pytest.raises(VascError, match="no loop is closed at step 50"):
+        draw_genealogy(timeline, 50)
+
+
+def test_every_vein_is_a_dot_where_and_when_it_was_born(timeline):
+    births = timeline.lineage.births()
+    above, below = draw_births(timeline).axes
+    dots = np.concatenate([line.get_xydata() for line in above.lines if line.get_marker() == "o"])
+    expected = np.stack([births["step"], births["height"]], axis=1)
+    order = np.lexsort(dots.T), np.lexsort(expected.T)
+    assert dots[order[0]] == pytest.approx(expected[order[1]])
+    counted = timeline.events.counts()["loop_closed"]
+    assert f"loop closed ({counted})" in [t.get_text() for t in below.get_legend().get_texts()]
+    # no vein is born above the tip
+    tip = next(line for line in above.lines if line.get_marker() == "None").get_xydata()
+    assert (expected[:, 1] <= np.interp(expected[:, 0], *tip.T) + 1e-6).all()
+
+
+def test_births_up_to_a_step_and_by_other_orders(timeline):
+    orders = np.full(timeline.n_rows("nodes"), 3)
+    above, _ = draw_births(timeline, 100, orders=orders, order_name="vein order").axes
+    (dots,) = (line for line in above.lines if line.get_marker() == "o")
+    assert dots.get_xdata().max() <= 100
+    assert above.get_legend().get_title().get_text() == "vein order (veins)"

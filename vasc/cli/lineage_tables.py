@@ -1,0 +1,90 @@
+"""Tables of lineage on the terminal: rows for people, CSV and JSON for programs."""
+
+import csv
+import math
+import sys
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from vasc.timeline import Timeline
+
+NEVER_NULL = {"time", "height", "survival", "standard_error", "low", "high", "median"}
+"""Columns of real numbers, in which -1 would be a number like others."""
+
+
+def asked_for(timeline: "Timeline", name: str, source: int | None) -> "dict[str, NDArray]":
+    """Give a table of lineage by its name; of competitors, those of a source."""
+    if name == "competitors":
+        return timeline.lineage.competitors(source)
+    return timeline.lineage.table(name)
+
+
+def write(
+    name: str,
+    table: "Mapping[str, NDArray]",
+    limit: int | None,
+    *,
+    as_csv: bool,
+    as_json: bool,
+) -> None:
+    """Write a table.
+
+    Parameters
+    ----------
+    name : str
+        Its name, the key of its rows in JSON.
+    table : mapping of str to ndarray
+        Columns of one length.
+    limit : int or None
+        Rows at most.
+    as_csv, as_json : bool
+        How; for people if neither.
+    """
+    from vasc.cli.printing import print_json, print_table
+    from vasc.timeline.veins import births_by_order
+
+    n_rows = len(next(iter(table.values())))
+    if as_csv:
+        writer = csv.writer(sys.stdout, lineterminator="\n")
+        writer.writerow(table)
+        writer.writerows(
+            ["" if cell is None else cell for cell in row] for row in rows(table, limit)
+        )
+    elif as_json:
+        found: dict[str, Any] = {"found": n_rows, name: records(table, limit)}
+        if name == "births":
+            found["by_order"] = records(births_by_order(table), None)
+        print_json(found)
+    else:
+        shown = births_by_order(table) if name == "births" else table
+        print_table(list(shown), rows(shown, limit))
+        n_shown = len(next(iter(shown.values())))
+        if limit is not None and limit < n_shown:
+            typer.echo(f"... and {n_shown - limit:,} more")
+
+
+def records(table: "Mapping[str, NDArray]", limit: int | None) -> list[dict[str, Any]]:
+    """Give the rows of a table as JSON objects."""
+    return [dict(zip(table, row, strict=True)) for row in rows(table, limit)]
+
+
+def rows(table: "Mapping[str, NDArray]", limit: int | None) -> list[tuple[Any, ...]]:
+    """Give the rows of a table in JSON values: names for codes, None for null and nan."""
+    columns = (_values(name, column[:limit].tolist()) for name, column in table.items())
+    return list(zip(*columns, strict=True))
+
+
+def _values(name: str, values: list[Any]) -> list[Any]:
+    """Give the values of a column as people and JSON know them."""
+    from vasc.timeline import Fate
+
+    if name == "fate":
+        return [Fate(code).name.lower() for code in values]
+    if name in NEVER_NULL:
+        return [None if math.isnan(value) else value for value in values]
+    return [None if value == -1 else value for value in values]

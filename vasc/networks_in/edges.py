@@ -1,0 +1,146 @@
+"""Nodes and edges as a file gives them, checked one by one, made a network at the end."""
+
+import math
+from collections.abc import Hashable
+
+import numpy as np
+
+from vasc.errors import NetworkError
+from vasc.real_network import RealNetwork
+
+MAX_ROWS = 5_000_000
+"""Nodes, or edges, at most."""
+LARGEST = 1e12
+"""Numbers at most, so that squares and products of lengths stay exact enough."""
+NUMBER = f"a number between -{LARGEST:g} and {LARGEST:g}"
+
+
+class Edges:
+    """Collects the nodes and edges of a file.
+
+    Parameters
+    ----------
+    name : str
+        Name of the file, for messages.
+    """
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.rows: dict[Hashable, int] = {}
+        self.places: list[tuple[float, float]] = []
+        self.pairs: list[tuple[int, int]] = []
+        self.widths: list[float | None] = []
+        self.lengths: list[float | None] = []
+        self._first: dict[tuple[int, int], str] = {}
+
+    def add_node(self, node: Hashable, x: object, y: object, where: str) -> None:
+        """Take in a node and its place.
+
+        Raises
+        ------
+        NetworkError
+            If it is there already, or its place is not two numbers.
+        """
+        if node in self.rows:
+            raise self.error(where, f"node {shown(node)} is given twice; a node has one place")
+        if len(self.rows) >= MAX_ROWS:
+            raise self.error(where, f"more than {MAX_ROWS:,} nodes")
+        self.rows[node] = len(self.places)
+        self.places.append((self._number(x, "x", where), self._number(y, "y", where)))
+
+    def add_edge(
+        self, one: Hashable, other: Hashable, width: object, length: object, where: str
+    ) -> None:
+        """Take in an edge between two nodes that are there; width and length may be None.
+
+        Raises
+        ------
+        NetworkError
+            If a node is unknown, the ends are one node, the edge is there already, or a
+            measure is not above 0.
+        """
+        for node in (one, other):
+            if node not in self.rows:
+                raise self.error(
+                    where, f"node {shown(node)} is none of the {len(self.rows):,} nodes"
+                )
+        pair = self.rows[one], self.rows[other]
+        if pair[0] == pair[1]:
+            raise self.error(where, f"from node {shown(one)} to itself; an edge has two ends")
+        key = min(pair), max(pair)
+        if key in self._first:
+            between = f"{shown(one)} and {shown(other)}"
+            raise self.error(
+                where,
+                f"the edge between {between} is given twice, first in {self._first[key]};"
+                " give veins that share both ends a node on their way",
+            )
+        if len(self.pairs) >= MAX_ROWS:
+            raise self.error(where, f"more than {MAX_ROWS:,} edges")
+        self._first[key] = where
+        self.pairs.append(pair)
+        self.widths.append(self._above_zero(width, "width", where))
+        self.lengths.append(self._above_zero(length, "length", where))
+
+    def network(self, unit: str = "") -> RealNetwork:
+        """Make the network.
+
+        Raises
+        ------
+        NetworkError
+            If there is no edge, or some edges have a width or length and others none.
+        """
+        if not self.pairs:
+            raise NetworkError(f"{self.name}: holds no edge; a network needs one at least")
+        return RealNetwork.from_edges(
+            np.array(self.places, dtype=np.float64).reshape(-1, 2),
+            np.array(self.pairs, dtype=np.int32).reshape(-1, 2),
+            widths=self._column(self.widths, "width"),
+            lengths=self._column(self.lengths, "length"),
+            unit=unit,
+        )
+
+    def error(self, where: str, problem: str) -> NetworkError:
+        """Give an error that names the file and the place in it."""
+        return NetworkError(f"{self.name}, {where}: {problem}")
+
+    def _number(self, value: object, what: str, where: str) -> float:
+        """Give a finite number."""
+        try:
+            number = float(value)  # type: ignore[arg-type]
+        except (TypeError, ValueError, OverflowError):
+            number = math.nan
+        if isinstance(value, bool) or not abs(number) <= LARGEST:
+            raise self.error(where, f"{what} is {shown(value)}; it must be {NUMBER}")
+        return number
+
+    def _above_zero(self, value: object, what: str, where: str) -> float | None:
+        """Give a number above 0, or None for none."""
+        if value is None or value == "":
+            return None
+        number = self._number(value, what, where)
+        if number < 1.0 / LARGEST:
+            raise self.error(where, f"{what} is {shown(value)}; it must be above 0")
+        return number
+
+    def _column(self, values: list[float | None], what: str) -> "np.ndarray | None":
+        """Give a column as an array, None if it is empty."""
+        missing = [row for row, value in enumerate(values) if value is None]
+        if len(missing) == len(values):
+            return None
+        if missing:
+            pair = next(key for key, row in self._numbered() if row == missing[0])
+            raise self.error(
+                self._first[pair], f"has no {what}, as other edges have; give all edges one or none"
+            )
+        return np.array(values, dtype=np.float64)
+
+    def _numbered(self) -> list[tuple[tuple[int, int], int]]:
+        """Give the edges and their rows."""
+        return [(key, row) for row, key in enumerate(self._first)]
+
+
+def shown(value: object) -> str:
+    """Quote a value of a file, cut where it is long."""
+    text = str(value)
+    return f"'{text[:40]}...'" if len(text) > 43 else f"'{text}'"

@@ -1,0 +1,225 @@
+"""The genealogy of areoles: first-order loops in colour on the blade, and their trees of splits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vasc.arrays import Points
+from vasc.errors import VascError
+from vasc.render.leaf import draw_leaf, view_of
+from vasc.render.styles import INK, SOURCE_COLORS, TEXT_SIZE, LeafStyle
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from vasc.timeline import Genealogy, Timeline
+
+SIDE, TREES = 7.0, 5.0
+"""Longer side of the blade's part, and width of the part with the trees, in inches."""
+LEFT, RIGHT, BELOW, ABOVE = 0.35, 0.25, 0.45, 0.3
+"""Room around the trees, in inches."""
+MOST_TREES = 24
+"""First-order loops that have a colour, a number and a tree: those with most parts."""
+PALEST = 0.55
+"""Share of white in the colour of the latest generation."""
+OTHERS = "#c9d4c4"
+"""Areoles of loops beyond these."""
+
+
+@dataclass(frozen=True)
+class _Shown:
+    """The trees to draw.
+
+    ``loops`` are the first-order loops that are shown, by the step of birth; ``colors`` has
+    a colour for every areole, and ``heights`` the place of each in the trees, nan for none.
+    """
+
+    tree: Genealogy
+    roots: NDArray[np.int32]
+    loops: list[int]
+    colors: list[str]
+    heights: NDArray[np.float64]
+
+
+def draw_genealogy(timeline: Timeline, step: int = -1, *, style: LeafStyle | None = None) -> Figure:
+    """Draw the areoles of a step in the colour of their first-order loop, beside their trees.
+
+    On the blade every areole has the colour of the first-order loop that it lies in, paler
+    the more splits led to it. In a tree, a line runs from the birth of an areole to its
+    split, where it forks; the numbers of first-order loops link both.
+
+    Parameters
+    ----------
+    timeline : Timeline
+        An open timeline of a leaf.
+    step : int
+        The step, the last one when not given.
+    style : LeafStyle, optional
+        Colours of blade, veins and paper.
+
+    Returns
+    -------
+    Figure
+
+    Raises
+    ------
+    TimelineError
+        If the step is not recorded, or the run is one of a stem.
+    VascError
+        If no loop is closed at that step.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    style = LeafStyle() if style is None else style
+    frame = timeline.frame(step)
+    tree = timeline.lineage.genealogy(frame.step)
+    if not tree.n_areoles:
+        raise VascError(f"{timeline.path}: no loop is closed at step {frame.step}")
+    shown = _shown(tree)
+    view = view_of(frame.blade, style, side=SIDE)
+    height = max(view.inches[1], 0.6 * SIDE)
+    width = view.inches[0] + TREES
+    figure = Figure(figsize=(width + 1e-6, height + 1e-6), facecolor=style.background)
+    FigureCanvasAgg(figure)
+    blade = figure.add_axes((0.0, 0.0, view.inches[0] / width, view.inches[1] / height))
+    draw_leaf(frame, blade, units=timeline.units, style=style, view=view)
+    _fill(blade, shown, frame.positions)
+    left = (view.inches[0] + LEFT) / width
+    trees = figure.add_axes(
+        (
+            left,
+            BELOW / height,
+            1.0 - left - RIGHT / width,
+            1.0 - (BELOW + ABOVE) / height,
+        )
+    )
+    _draw_trees(trees, shown, frame.step)
+    return figure
+
+
+def _shown(tree: Genealogy) -> _Shown:
+    """Choose the loops with most parts, and give each areole a colour and a place."""
+    from matplotlib.colors import to_hex, to_rgb
+
+    roots, generations = tree.roots, tree.generations
+    sizes = np.bincount(roots, minlength=tree.n_areoles)
+    largest = np.argsort(-sizes, kind="stable")[:MOST_TREES]
+    loops = sorted(largest[sizes[largest] > 0].tolist())
+    colors = [OTHERS] * tree.n_areoles
+    for place, loop in enumerate(loops):
+        plain = np.array(to_rgb(SOURCE_COLORS[place % len(SOURCE_COLORS)]))
+        members = np.flatnonzero(roots == loop).tolist()
+        deepest = max(int(generations[members].max()), 1)
+        for areole in members:
+            white = PALEST * int(generations[areole]) / deepest
+            red, green, blue = (plain * (1.0 - white) + white).tolist()
+            colors[areole] = to_hex((red, green, blue))
+    return _Shown(tree, roots, loops, colors, _heights(tree, loops))
+
+
+def _heights(tree: Genealogy, loops: list[int]) -> NDArray[np.float64]:
+    """Place whole areoles one above the other, and a split one between its parts."""
+    children: dict[int, list[int]] = {}
+    for areole, parent in enumerate(tree.parents.tolist()):
+        children.setdefault(parent, []).append(areole)
+    heights = np.full(tree.n_areoles, np.nan)
+    place = 0.0
+    for loop in loops:
+        # parts after what they are parts of; the tree may be deeper than calls may be
+        order, waiting = [], [loop]
+        while waiting:
+            order.append(waiting.pop())
+            waiting += children.get(order[-1], [])[::-1]
+        for areole in order:
+            if not children.get(areole):
+                heights[areole] = place
+                place += 1.0
+        for areole in reversed(order):
+            if children.get(areole):
+                heights[areole] = heights[children[areole]].mean()
+        # a gap between two trees
+        place += max(1.0, 0.02 * len(loops))
+    return heights
+
+
+def _fill(axes: Axes, shown: _Shown, positions: Points) -> None:
+    """Fill the whole areoles, and number the first-order loops."""
+    from matplotlib.collections import PolyCollection
+
+    rings = shown.tree.boundaries
+    axes.add_collection(
+        PolyCollection(
+            [positions[ring] for ring in rings.values()],
+            facecolors=[shown.colors[areole] for areole in rings],
+            linewidths=0.0,
+            # between the blade and the veins
+            zorder=1.5,
+        ),
+        autolim=False,
+    )
+    for loop in shown.loops:
+        parts = [positions[ring] for areole, ring in rings.items() if shown.roots[areole] == loop]
+        if parts:
+            # of the largest part, so that a number never lies outside its loop
+            largest = max(parts, key=lambda part: float(np.ptp(part, axis=0).prod()))
+            x, y = largest.mean(axis=0).tolist()
+            _number(axes, x, y, loop)
+
+
+def _draw_trees(axes: Axes, shown: _Shown, step: int) -> None:
+    """Draw a line a life, and forks where areoles were split."""
+    from matplotlib.collections import LineCollection
+    from matplotlib.ticker import MaxNLocator
+
+    tree, heights = shown.tree, shown.heights
+    drawn = np.flatnonzero(~np.isnan(heights))
+    ends = np.where(tree.splits < 0, step, tree.splits)
+    lives = [[(tree.births[k], heights[k]), (ends[k], heights[k])] for k in drawn]
+    colors = [shown.colors[k] for k in drawn]
+    parts = [k for k in drawn if tree.parents[k] >= 0]
+    forks = [
+        [(tree.births[k], heights[tree.parents[k]]), (tree.births[k], heights[k])] for k in parts
+    ]
+    thick = float(np.clip(250.0 / max(len(drawn), 1), 0.5, 2.0))
+    for lines, inks in ((forks, [shown.colors[k] for k in parts]), (lives, colors)):
+        axes.add_collection(LineCollection(lines, colors=inks, linewidths=thick), autolim=False)
+    first = float(tree.births[drawn].min())
+    # after the last birth or split there are only lines that go on
+    last = float(max(tree.births[drawn].max(), tree.splits[drawn].max()))
+    last = min(last + 0.15 * (last - first) + 1.0, step + 1.0)
+    axes.set_xlim(first - 0.08 * (last - first) - 1.0, last)
+    axes.set_ylim(-1.5, float(np.nanmax(heights)) + 1.5)
+    for loop in shown.loops:
+        _number(axes, float(tree.births[loop]), float(heights[loop]), loop)
+    axes.set_yticks([])
+    axes.xaxis.set_major_locator(MaxNLocator(nbins=7, integer=True))
+    axes.spines[["left", "right", "top"]].set_visible(False)
+    axes.tick_params(labelsize=TEXT_SIZE, colors=INK, width=0.5)
+    axes.set_xlabel("step", fontsize=TEXT_SIZE, color=INK)
+    n_loops = int((tree.parents < 0).sum())
+    what = f"{n_loops} first-order loops"
+    if n_loops > len(shown.loops):
+        what = f"the {len(shown.loops)} first-order loops with most parts, of {n_loops}"
+    axes.set_title(f"splits of {what}", fontsize=TEXT_SIZE + 1.0, color=INK)
+
+
+def _number(axes: Axes, x: float, y: float, loop: int) -> None:
+    """Write the number of a loop on a small pale disc."""
+    axes.text(
+        x,
+        y,
+        str(loop),
+        ha="center",
+        va="center",
+        fontsize=TEXT_SIZE - 2.0,
+        color=INK,
+        zorder=6.0,
+        clip_on=True,
+        bbox={"boxstyle": "round,pad=0.15", "facecolor": "#ffffffd0", "linewidth": 0.0},
+    )

@@ -1,0 +1,1 @@
+"""Canalization held against the rules of geometry, and both against the literature."""
