@@ -159,5 +159,5 @@ def test_every_verb_of_the_readme_exists():
         assert shown.returncode == 0, f"{verb}: {shown.stderr}"
     assert verbs == {
         *("configs", "run", "resume", "show", "events", "lineage", "stats"),
-        *("render", "animate", "export", "verify", "schema", "check", "validate"),
+        *("render", "animate", "export", "verify", "schema", "check", "validate", "sweep"),
     }

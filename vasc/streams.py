@@ -95,3 +95,27 @@ def poisson_count(rng: np.random.Generator, mean: float) -> int:
                 return count
             elapsed = total
             count += 1
+
+
+def spawned_seed(seed: int, number: int) -> int:
+    """Give the seed of one of many runs that come from one seed.
+
+    Parameters
+    ----------
+    seed : int
+        The recorded seed of all of them, at least 0.
+    number : int
+        Which run, at least 0.
+
+    Returns
+    -------
+    int
+        A seed below 2^53, so that every tool that reads a table keeps all its digits.
+
+    Examples
+    --------
+    >>> spawned_seed(1, 1) == spawned_seed(1, 1), spawned_seed(1, 1) == spawned_seed(1, 2)
+    (True, False)
+    """
+    words = np.random.SeedSequence([seed, number]).generate_state(1, np.uint64)
+    return int(words[0]) >> 11

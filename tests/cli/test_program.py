@@ -33,7 +33,7 @@ def started(*arguments, **options):
 def test_there_is_a_verb_for_everything():
     assert set(NAMES) == {
         *("configs", "run", "resume", "show", "events", "lineage", "stats", "compare"),
-        *("render", "animate", "export", "verify", "schema", "validate"),
+        *("render", "animate", "export", "verify", "schema", "sweep", "validate"),
     }
 
 
@@ -225,10 +225,14 @@ def test_an_output_of_few_characters_shows_what_it_can(tmp_path):
 
 def test_configs_are_listed_a_line_each(capsys):
     assert main(["configs"]) == 0
-    lines = capsys.readouterr().out.splitlines()
+    text, _, sweeps = capsys.readouterr().out.partition("\nsweeps, for `vasc sweep`\n")
     from vasc.config import bundled_configs
+    from vasc.config.bundled import bundled_sweeps
 
-    known = bundled_configs()
+    assert [line.split()[0] for line in sweeps.splitlines()] == [
+        one.name for one in bundled_sweeps()
+    ]
+    lines, known = text.splitlines(), bundled_configs()
     assert [line.split()[0] for line in lines] == [one.name for one in known]
     for line, one in zip(lines, known, strict=True):
         assert line.endswith(one.title)

@@ -1,4 +1,4 @@
-"""``vasc configs``: the experiments that come with vasc."""
+"""``vasc configs``: the experiments and sweeps that come with vasc."""
 
 from pathlib import Path
 from typing import Annotated
@@ -22,9 +22,9 @@ def configs(
     ] = Path(),
     as_json: AsJson = False,
 ) -> None:
-    """List the experiments that come with vasc, or copy one to edit it."""
+    """List the experiments and sweeps that come with vasc, or copy one to edit it."""
     from vasc.cli.printing import print_json, print_pairs
-    from vasc.config.bundled import bundled_configs, copy_bundled
+    from vasc.config.bundled import bundled_configs, bundled_sweeps, copy_bundled
 
     if copy is not None:
         files = [str(file) for file in copy_bundled(copy, folder)]
@@ -33,8 +33,16 @@ def configs(
         else:
             typer.echo(f"written: {', '.join(files)}")
         return
-    found = bundled_configs()
+    found = {"run": bundled_configs(), "sweep": bundled_sweeps()}
     if as_json:
-        print_json([{"name": one.name, "title": one.title} for one in found])
-    else:
-        print_pairs({one.name: one.title for one in found})
+        print_json(
+            [
+                {"name": one.name, "title": one.title, "verb": verb}
+                for verb, listed in found.items()
+                for one in listed
+            ]
+        )
+        return
+    print_pairs({one.name: one.title for one in found["run"]})
+    typer.echo("\nsweeps, for `vasc sweep`")
+    print_pairs({one.name: one.title for one in found["sweep"]})

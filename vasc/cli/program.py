@@ -20,6 +20,7 @@ from vasc.cli import (
     schema,
     show,
     stats,
+    sweep,
     validate,
     verify,
 )
@@ -40,6 +41,7 @@ VERBS = (
     animate,
     export,
     verify,
+    sweep,
     validate,
     schema,
 )

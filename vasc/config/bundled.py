@@ -8,17 +8,20 @@ from vasc.config.attachments import referenced_files
 from vasc.config.reading import parse, read_text
 from vasc.errors import ConfigError, OutputError
 
+SWEEPS = "sweeps"
+"""Folder of the sweeps, among the experiments."""
+
 _PACKAGE = Path(__file__).resolve().parent.parent
 
 
 @dataclass(frozen=True)
 class Bundled:
-    """One experiment that comes with vasc.
+    """One experiment, or sweep of experiments, that comes with vasc.
 
     Parameters
     ----------
     name : str
-        The name ``vasc run`` takes.
+        The name ``vasc run`` takes, or ``vasc sweep``.
     title : str
         A sentence on what it grows.
     path : Path
@@ -41,13 +44,19 @@ def bundled_paths() -> dict[str, Path]:
     return {path.stem: path for path in sorted(bundled_folder().glob("*.toml"))}
 
 
+def sweep_paths() -> dict[str, Path]:
+    """Give the files of the bundled sweeps by name, in the order of the names."""
+    return {path.stem: path for path in sorted((bundled_folder() / SWEEPS).glob("*.toml"))}
+
+
 def bundled_configs() -> list[Bundled]:
     """Give the bundled experiments, in the order of their names."""
-    found = []
-    for name, path in bundled_paths().items():
-        tables = parse(read_text(path), name)
-        found.append(Bundled(name, str(tables.get("title", "")), path))
-    return found
+    return _described(bundled_paths())
+
+
+def bundled_sweeps() -> list[Bundled]:
+    """Give the bundled sweeps, in the order of their names."""
+    return _described(sweep_paths())
 
 
 def find_config(source: str | Path) -> Path:
@@ -68,10 +77,35 @@ def find_config(source: str | Path) -> Path:
     ConfigError
         If there is neither.
     """
+    return _find(source, bundled_paths(), "experiment")
+
+
+def find_sweep(source: str | Path) -> Path:
+    """Give the file of a sweep, which is a file or the name of a bundled one.
+
+    Parameters
+    ----------
+    source : str or Path
+        What the user wrote; a file comes before a bundled name.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    ConfigError
+        If there is neither.
+    """
+    return _find(source, sweep_paths(), "sweep")
+
+
+def _find(source: str | Path, known: dict[str, Path], what: str) -> Path:
+    """Give a file of that name, or a bundled one of those known."""
     if not str(source).isprintable():
         raise ConfigError(f"{str(source)[:80]!r}: is not the name of a file")
     path = Path(source)
-    known = bundled_paths()
     try:
         if path.is_file() or (path.exists() and str(source) not in known):
             return path
@@ -82,18 +116,18 @@ def find_config(source: str | Path) -> Path:
     close = difflib.get_close_matches(path.stem, known, n=1)
     nearest = f"; nearest: {close[0]}" if close else ""
     raise ConfigError(
-        f"{source}: there is no such file and no bundled experiment of that name{nearest}"
+        f"{source}: there is no such file and no bundled {what} of that name{nearest}"
         " (`vasc configs` lists them)"
     )
 
 
 def copy_bundled(name: str, folder: Path) -> list[Path]:
-    """Write a bundled experiment, and the files it refers to, into a folder.
+    """Write a bundled experiment or sweep, and the files it refers to, into a folder.
 
     Parameters
     ----------
     name : str
-        Name of the experiment.
+        Its name.
     folder : Path
         An existing folder.
 
@@ -110,7 +144,7 @@ def copy_bundled(name: str, folder: Path) -> list[Path]:
     OutputError
         If the folder does not exist or a file would be overwritten.
     """
-    known = bundled_paths()
+    known = sweep_paths() | bundled_paths()
     if name not in known:
         close = difflib.get_close_matches(name, known, n=1)
         nearest = f"; nearest: {close[0]}" if close else f"; there are: {', '.join(known)}"
@@ -130,3 +164,12 @@ def copy_bundled(name: str, folder: Path) -> list[Path]:
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_bytes(content)
     return list(missing)
+
+
+def _described(paths: dict[str, Path]) -> list[Bundled]:
+    """Read the titles of bundled files."""
+    found = []
+    for name, path in paths.items():
+        tables = parse(read_text(path), name)
+        found.append(Bundled(name, str(tables.get("title", "")), path))
+    return found
