@@ -190,3 +190,34 @@ def test_a_tissue_that_the_disk_has_no_room_for_is_refused(canals, capsys, monke
         " takes up to 6,141 bytes, and 60,000 are free; at least 100 steps must fit"
     )
     assert not (canals / "canals.h5").exists()
+
+
+def test_cells_show_no_sequence_of_a_leaf_and_say_so(recorded, capsys):
+    assert main(["check", "sequence", str(recorded / "canals.h5")]) in (1, 2)
+    said = capsys.readouterr()
+    assert "unexpected" not in said.err
+
+
+@pytest.mark.parametrize("change", ["tolerance=1e-12", "rest=1e-300", "until=1e12"])
+def test_runs_that_would_hardly_end_are_refused_by_key(change, recorded, tmp_path, capsys):
+    output = tmp_path / "run.h5"
+    words = ["run", str(recorded / "canals.toml"), "-o", str(output), "--no-figure"]
+    assert main([*words, "--set", f"settling.{change}"]) == 2
+    said = capsys.readouterr().err
+    assert f"settling.{change.partition('=')[0]}" in said
+    assert not output.exists()
+
+
+def test_a_run_that_diverged_is_not_said_to_go_on(tmp_path, capsys):
+    diverging = CANALS.replace("columns = 13\nrows = 9", "columns = 31\nrows = 17")
+    diverging = diverging.replace("[[2, 8]], [[10, 8]]", "[[5, 16]], [[25, 16]]")
+    diverging = diverging.replace("[[4, 2], [9, 3], [1, 1]]\nrounds = [1, 2, 2]", "[[0, 4]]")
+    diverging = diverging.replace('"facilitated"', '"polar"\ngain = 30.0\nsaturation = "none"')
+    (tmp_path / "run.toml").write_text(diverging)
+    output = tmp_path / "run.h5"
+    words = ["run", str(tmp_path / "run.toml"), "-o", str(output), "--no-figure"]
+    assert main([*words, "--quiet"]) == 3
+    assert main(["show", str(output)]) == 0
+    said = capsys.readouterr().out
+    assert "with an error" in said
+    assert "goes on" not in said

@@ -93,7 +93,13 @@ def _print(timeline: "Timeline", path: Path) -> None:
         typer.echo(f"after {config['reference']}")
     for sentence in found.pop("evidence"):
         typer.echo(f"equations: {sentence}")
-    ended = REASONS.get(reason, reason) if reason else f"not yet; `vasc resume {path}` goes on"
+    outcome = str(timeline.provenance[-1].get("outcome", "")) if timeline.provenance else ""
+    if reason:
+        ended = REASONS.get(reason, reason)
+    elif outcome.startswith("failed"):
+        ended = f"with an error, see sessions; `vasc resume {path}` would meet it again"
+    else:
+        ended = f"not yet; `vasc resume {path}` goes on"
     typer.echo()
     print_pairs(found | {"ended": ended, "size": file_size(path.stat().st_size)})
     typer.echo("\nevents")

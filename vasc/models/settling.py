@@ -23,7 +23,7 @@ class Settling(Parameters):
     tolerance: float = quantity(
         "Largest change of a wall in a step, relative to its state plus 1.",
         default=0.3,
-        gt=0.0,
+        ge=1e-3,
         le=100.0,
     )
     largest_lapse: float = quantity(
@@ -32,7 +32,7 @@ class Settling(Parameters):
     rest: float = quantity(
         "Walls are at rest when none asks for a larger relative change.",
         default=0.02,
-        gt=0.0,
+        ge=1e-6,
         lt=1.0,
     )
     until: float | None = quantity(
@@ -42,6 +42,7 @@ class Settling(Parameters):
         unit="turnover times",
         default=None,
         gt=0.0,
+        le=1e5,
     )
     noise: float = quantity(
         "Half the range of a factor around 1 that the walls begin with.",

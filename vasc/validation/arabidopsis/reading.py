@@ -223,6 +223,8 @@ def first_perceived(timeline: Timeline) -> dict[int, Ids]:
     steps, sources, nodes = (
         timeline.table("perceived", column) for column in ("step", "source", "node")
     )
+    if len(sources) == 0:
+        return {}  # splitting nothing gives one piece, of no source
     order = np.argsort(sources, kind="stable")
     steps, sources, nodes = steps[order], sources[order], nodes[order]
     ids, starts = np.unique(sources, return_index=True)
