@@ -6,23 +6,6 @@ with the same equations on other draws, so that a change of the model shows.
 
 from dataclasses import dataclass
 
-CANAL_CITATIONS = {
-    "Runions 2008": "A. Runions (2008). Modeling biological patterns using the space colonization"
-    " algorithm. Master's thesis, University of Calgary. Section 4.1.4 and Figure 4.9 for canals,"
-    " sections 4.2 and 4.3 and equation 4.1 for the rules of geometry.",
-    "Mitchison 1980": "G. J. Mitchison (1980). A model for vein formation in higher plants."
-    " Proceedings of the Royal Society B 207, 79-109. Facilitated diffusion.",
-    "Mitchison 1981": "G. J. Mitchison (1981). The polar transport of auxin and vein patterns in"
-    " plants. Philosophical Transactions of the Royal Society B 295, 461-471.",
-    "Rolland-Lagan & Prusinkiewicz 2005": "A.-G. Rolland-Lagan and P. Prusinkiewicz (2005)."
-    " Reviewing models of auxin canalization in the context of leaf vein pattern formation in"
-    " Arabidopsis. Plant Journal 44, 854-865. The simulations of Figure 4.9.",
-    "Feugier 2005": "F. G. Feugier, A. Mochizuki and Y. Iwasa (2005). Self-organization of the"
-    " vascular system in plant leaves: inter-dependent dynamics of auxin flux and carrier proteins."
-    " Journal of Theoretical Biology 236, 366-375. A fixed number of carriers a cell.",
-}
-"""Full references of the short names used below."""
-
 CLAIM = "Runions (2008), section 4.1.4: a canal forms between a source and the closest vein"
 FIGURE = "Runions (2008), Figure 4.9"
 CLOSED_RULE = "Runions (2008), section 4.3, equation 4.1: the closed rule"
