@@ -1,4 +1,8 @@
-"""Canals of one source in an areole, for walls that saturate sooner and sooner.
+"""
+Canals in an areole
+===================
+
+Canals of one source in an areole, for walls that saturate sooner and sooner.
 
 Crosses are the relative neighbors of the source among the veins (Runions 2008, equation 4.1),
 where the closed model of venation would lead strands.
@@ -59,5 +63,5 @@ def main(output: Path, size: int = 12) -> None:
 
 
 if __name__ == "__main__":
-    asked = options(__file__, "half the width of the areole, in cells", 12)
+    asked = options("half the width of the areole, in cells", 12)
     main(asked.output, asked.size)

@@ -1,4 +1,9 @@
-"""Seconds that a canal takes to form, against the number of cells."""
+"""
+Cost of a canal
+===============
+
+Seconds that a canal takes to form, against the number of cells.
+"""
 
 import time
 from pathlib import Path
@@ -56,5 +61,5 @@ def main(output: Path, size: int = 60) -> None:
 
 
 if __name__ == "__main__":
-    asked = options(__file__, "side of the largest tissue, in cells; at most 200", 60)
+    asked = options("side of the largest tissue, in cells; at most 200", 60)
     main(asked.output, asked.size)

@@ -1,4 +1,9 @@
-"""Which of two sinks the canal of a source reaches, for sources all over a tissue."""
+"""
+Which sink is reached
+=====================
+
+Which of two sinks the canal of a source reaches, for sources all over a tissue.
+"""
 
 from pathlib import Path
 
@@ -67,5 +72,5 @@ def draw_bisector(ax, sinks: np.ndarray) -> None:
 
 
 if __name__ == "__main__":
-    asked = options(__file__, "every so many cells is a source; 1 for all", 2)
+    asked = options("every so many cells is a source; 1 for all", 2)
     main(asked.output, asked.size)

@@ -1,4 +1,9 @@
-"""How often a canal reaches the nearer of two sinks, against the ratio q of their distances."""
+"""
+How often the nearer sink is reached
+====================================
+
+How often a canal reaches the nearer of two sinks, against the ratio q of their distances.
+"""
 
 from pathlib import Path
 
@@ -80,5 +85,5 @@ def main(output: Path, size: int = 60) -> None:
 
 
 if __name__ == "__main__":
-    asked = options(__file__, "trials", 60)
+    asked = options("trials", 60)
     main(asked.output, asked.size)

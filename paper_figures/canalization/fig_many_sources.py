@@ -1,4 +1,8 @@
-"""Many sources and one base in a leaf: canals, space colonization, minimum spanning tree.
+"""
+Many sources, one base
+======================
+
+Many sources and one base in a leaf: canals, space colonization, minimum spanning tree.
 
 Lines are as wide as the root of what flows through them, or of the sources that a branch serves.
 """
@@ -128,5 +132,5 @@ def main(output: Path, size: int = 34) -> None:
 
 
 if __name__ == "__main__":
-    asked = options(__file__, "length of the leaf, in cells", 34)
+    asked = options("length of the leaf, in cells", 34)
     main(asked.output, asked.size)

@@ -1,4 +1,9 @@
-"""What becomes of one source and two sinks, for gains and saturations: a diagram of phases."""
+"""
+A diagram of phases
+===================
+
+What becomes of one source and two sinks, for gains and saturations: a diagram of phases.
+"""
 
 from pathlib import Path
 
@@ -91,5 +96,5 @@ def main(output: Path, size: int = 1) -> None:
 
 
 if __name__ == "__main__":
-    asked = options(__file__, "every so many gains is tried; 1 for all", 1)
+    asked = options("every so many gains is tried; 1 for all", 1)
     main(asked.output, asked.size)

@@ -1,4 +1,8 @@
-"""Sources that appear one after the other in a leaf: canals beside the open geometric rule.
+"""
+Sources one after the other
+===========================
+
+Sources that appear one after the other in a leaf: canals beside the open geometric rule.
 
 On the left every canal becomes a vein, a sink for the next. On the right the same sources are
 connected, in the same order, with the vein node that is nearest to them.
@@ -118,5 +122,5 @@ def main(output: Path, size: int = 34) -> None:
 
 
 if __name__ == "__main__":
-    asked = options(__file__, "length of the leaf, in cells", 34)
+    asked = options("length of the leaf, in cells", 34)
     main(asked.output, asked.size)

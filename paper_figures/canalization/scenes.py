@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
@@ -40,10 +41,10 @@ GREEN, RED, ORANGE = TissueStyle.sink, TissueStyle.source, TissueStyle.arrow
 INK, BLUE = "#202020", "#2b6cc4"
 
 
-def options(script: str, help_of_size: str, size: int) -> argparse.Namespace:
+def options(help_of_size: str, size: int) -> argparse.Namespace:
     """Read where a figure goes, and how large its experiment is; small ones take seconds."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("-o", "--output", type=Path, default=Path(f"{Path(script).stem}.png"))
+    parser.add_argument("-o", "--output", type=Path, default=Path(f"{Path(sys.argv[0]).stem}.png"))
     parser.add_argument("--size", type=int, default=size, help=help_of_size)
     return parser.parse_args()
 

@@ -1,4 +1,9 @@
-"""Figure 3.2: the scalar field E, its directions and the branches of two attraction points."""
+"""
+Figure 3.2: two attraction points
+=================================
+
+The scalar field E, its directions and the branches of two attraction points.
+"""
 
 from pathlib import Path
 
@@ -17,4 +22,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

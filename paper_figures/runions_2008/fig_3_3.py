@@ -1,4 +1,9 @@
-"""Figure 3.3: the scalar field E, its directions and the branches of three attraction points."""
+"""
+Figure 3.3: three attraction points
+===================================
+
+The scalar field E, its directions and the branches of three attraction points.
+"""
 
 from pathlib import Path
 
@@ -17,4 +22,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 3.4: the bias g of equation 3.3 and the path of a single branch."""
+"""
+Figure 3.4: the bias of equation 3.3
+====================================
+
+The bias g of equation 3.3 and the path of a single branch.
+"""
 
 from pathlib import Path
 
@@ -58,4 +63,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 3.5: the space colonization algorithm, step by step."""
+"""
+Figure 3.5: one step of space colonization
+==========================================
+
+The space colonization algorithm, step by step.
+"""
 
 from pathlib import Path
 
@@ -54,4 +59,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 4.10: the algorithm for open venation, step by step."""
+"""
+Figure 4.10: open venation, step by step
+========================================
+
+The algorithm for open venation, step by step.
+"""
 
 from pathlib import Path
 
@@ -84,4 +89,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

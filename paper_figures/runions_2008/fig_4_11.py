@@ -1,4 +1,9 @@
-"""Figure 4.11: the relative neighbourhood of a source, and what one neighbour excludes."""
+"""
+Figure 4.11: relative neighbors
+===============================
+
+The relative neighbourhood of a source, and what one neighbour excludes.
+"""
 
 from pathlib import Path
 
@@ -58,4 +63,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 4.12: boundary curves of existing veins, and what grows to one source inside of them."""
+"""
+Figure 4.12: boundary curves
+============================
+
+Boundary curves of existing veins, and what grows to one source inside of them.
+"""
 
 from pathlib import Path
 
@@ -71,4 +76,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 4.13: a node excludes another from a neighbourhood that it is not in itself."""
+"""
+Figure 4.13: Urquhart's approximation
+=====================================
+
+A node excludes another from a neighbourhood that it is not in itself.
+"""
 
 from pathlib import Path
 
@@ -71,4 +76,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 4.14: what the kill distance, the number of darts and slow growth do to a pattern."""
+"""
+Figure 4.14: parameters of venation
+===================================
+
+What the kill distance, the number of darts and slow growth do to a pattern.
+"""
 
 from pathlib import Path
 
@@ -22,4 +27,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 4.15: a leaf of Ginkgo biloba."""
+"""
+Figure 4.15: a ginkgo
+=====================
+
+A leaf of Ginkgo biloba.
+"""
 
 from pathlib import Path
 
@@ -17,4 +22,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

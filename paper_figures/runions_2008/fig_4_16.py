@@ -1,4 +1,9 @@
-"""Figure 4.16: a leaf of lady's mantle, Alchemilla mollis."""
+"""
+Figure 4.16: a lady's mantle
+============================
+
+A leaf of lady's mantle, Alchemilla mollis.
+"""
 
 from pathlib import Path
 
@@ -17,4 +22,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

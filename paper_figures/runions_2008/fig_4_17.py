@@ -1,4 +1,9 @@
-"""Figure 4.17: a leaf of sweetgum, Liquidambar styraciflua."""
+"""
+Figure 4.17: a sweetgum
+=======================
+
+A leaf of sweetgum, Liquidambar styraciflua.
+"""
 
 from pathlib import Path
 
@@ -17,4 +22,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 4.19: a toothed leaf with a lobe; sequences of tertiary veins off the secondaries."""
+"""
+Figure 4.19: a toothed leaf
+===========================
+
+A toothed leaf with a lobe; sequences of tertiary veins off the secondaries.
+"""
 
 from pathlib import Path
 
@@ -17,4 +22,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

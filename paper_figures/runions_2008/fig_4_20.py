@@ -1,4 +1,9 @@
-"""Figure 4.20: a leaf of the orchid tree, Bauhinia, and a segment of a grass leaf."""
+"""
+Figure 4.20: an orchid tree and a grass
+=======================================
+
+A leaf of the orchid tree, Bauhinia, and a segment of a grass leaf.
+"""
 
 from pathlib import Path
 
@@ -17,4 +22,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

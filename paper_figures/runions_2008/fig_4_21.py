@@ -1,4 +1,9 @@
-"""Figure 4.21: a reticulate pattern in an isogonically growing leaf."""
+"""
+Figure 4.21: reticulate veins
+=============================
+
+A reticulate pattern in an isogonically growing leaf.
+"""
 
 from pathlib import Path
 
@@ -17,4 +22,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

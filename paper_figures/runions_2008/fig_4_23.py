@@ -1,4 +1,9 @@
-"""Figure 4.23: poplar leaves by exact relative neighbourhoods and by Urquhart's approximation."""
+"""
+Figure 4.23: a poplar
+=====================
+
+Poplar leaves by exact relative neighbourhoods and by Urquhart's approximation.
+"""
 
 from pathlib import Path
 
@@ -35,4 +40,4 @@ def shrink(ax: Axes) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

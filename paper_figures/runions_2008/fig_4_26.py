@@ -1,4 +1,9 @@
-"""Figure 4.26: letters with vein patterns."""
+"""
+Figure 4.26: letters
+====================
+
+Letters with vein patterns.
+"""
 
 from pathlib import Path
 
@@ -17,4 +22,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 4.9: Mitchison's model with two sinks and one source: a strand forms to the nearer."""
+"""
+Figure 4.9: canals by Mitchison's model
+=======================================
+
+Mitchison's model with two sinks and one source: a strand forms to the nearer.
+"""
 
 from pathlib import Path
 
@@ -118,4 +123,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 5.10: how the veins of the first leaf of Arabidopsis develop, in thirteen pictures."""
+"""
+Figure 5.10: a first leaf of Arabidopsis
+========================================
+
+How the veins of the first leaf of Arabidopsis develop, in thirteen pictures.
+"""
 
 from pathlib import Path
 
@@ -23,4 +28,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 5.11: the final pattern of the first leaf, and with corners cut at a lower threshold."""
+"""
+Figure 5.11: the final pattern
+==============================
+
+The final pattern of the first leaf, and with corners cut at a lower threshold.
+"""
 
 from pathlib import Path
 
@@ -20,4 +25,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

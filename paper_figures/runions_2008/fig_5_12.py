@@ -1,4 +1,9 @@
-"""Figure 5.12: the final pattern of the first leaf when segments are halved, not corners cut."""
+"""
+Figure 5.12: corners that stay
+==============================
+
+The final pattern of the first leaf when segments are halved, not corners cut.
+"""
 
 from pathlib import Path
 
@@ -18,4 +23,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

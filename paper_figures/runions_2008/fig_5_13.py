@@ -1,4 +1,9 @@
-"""Figure 5.13: a mature leaf without blindly terminating veins."""
+"""
+Figure 5.13: a mature leaf
+==========================
+
+A mature leaf without blindly terminating veins.
+"""
 
 from pathlib import Path
 
@@ -17,4 +22,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 5.14: a mature leaf with blindly terminating veins."""
+"""
+Figure 5.14: a mature leaf, blind ends
+======================================
+
+A mature leaf with blindly terminating veins.
+"""
 
 from pathlib import Path
 
@@ -17,4 +22,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 5.2: local-to-global growth, from a young shape to a grown one by two functions."""
+"""
+Figure 5.2: local-to-global growth
+==================================
+
+Local-to-global growth, from a young shape to a grown one by two functions.
+"""
 
 from pathlib import Path
 
@@ -72,4 +77,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 5.3: a point of the parameter space, and where growth carries it."""
+"""
+Figure 5.3: the parameter space
+===============================
+
+A point of the parameter space, and where growth carries it.
+"""
 
 from pathlib import Path
 
@@ -44,4 +49,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 5.5: the areole model step by step, in one closed areole."""
+"""
+Figure 5.5: areole venation, step by step
+=========================================
+
+The areole model step by step, in one closed areole.
+"""
 
 from pathlib import Path
 
@@ -88,4 +93,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

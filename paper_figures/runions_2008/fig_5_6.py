@@ -1,4 +1,9 @@
-"""Figure 5.6: one corner cut: a node between two segments is replaced by two (equation 5.3)."""
+"""
+Figure 5.6: one corner cut
+==========================
+
+One corner cut: a node between two segments is replaced by two (equation 5.3).
+"""
 
 from pathlib import Path
 
@@ -60,4 +65,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

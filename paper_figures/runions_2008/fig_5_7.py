@@ -1,4 +1,9 @@
-"""Figure 5.7: development of the first leaf by local-to-global growth, in seven pictures."""
+"""
+Figure 5.7: growth by a table of stretch
+========================================
+
+Development of the first leaf by local-to-global growth, in seven pictures.
+"""
 
 from pathlib import Path
 
@@ -22,4 +27,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 5.8: the pattern of local-to-global growth before and after the mesophyll event."""
+"""
+Figure 5.8: the mesophyll event
+===============================
+
+The pattern of local-to-global growth before and after the mesophyll event.
+"""
 
 from pathlib import Path
 
@@ -19,4 +24,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 5.9: the key-frames of the first leaf of Arabidopsis, to scale."""
+"""
+Figure 5.9: key-frames
+======================
+
+The key-frames of the first leaf of Arabidopsis, to scale.
+"""
 
 from pathlib import Path
 
@@ -25,4 +30,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

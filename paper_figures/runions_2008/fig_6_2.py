@@ -1,4 +1,9 @@
-"""Figure 6.2: a leaf trace and the vein nodes of a stem grow towards each other."""
+"""
+Figure 6.2: a leaf trace
+========================
+
+A leaf trace and the vein nodes of a stem grow towards each other.
+"""
 
 from pathlib import Path
 
@@ -54,4 +59,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 6.4: a stem is split along a line and laid flat."""
+"""
+Figure 6.4: a stem laid flat
+============================
+
+A stem is split along a line and laid flat.
+"""
 
 from pathlib import Path
 
@@ -38,4 +43,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

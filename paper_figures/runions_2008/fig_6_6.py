@@ -1,4 +1,9 @@
-"""Figure 6.6: a stem in space and unrolled, before and after growth of its internodes."""
+"""
+Figure 6.6: growth of internodes
+================================
+
+A stem in space and unrolled, before and after growth of its internodes.
+"""
 
 from pathlib import Path
 
@@ -43,4 +48,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 6.7: two stems that differ in their plastochron alone, unrolled."""
+"""
+Figure 6.7: plastochrons
+========================
+
+Two stems that differ in their plastochron alone, unrolled.
+"""
 
 from pathlib import Path
 
@@ -28,4 +33,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

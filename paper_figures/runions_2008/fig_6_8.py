@@ -1,4 +1,9 @@
-"""Figure 6.8: stems whose primordia are ever farther apart in height, at 137.5 degrees."""
+"""
+Figure 6.8: rise of the primordia
+=================================
+
+Stems whose primordia are ever farther apart in height, at 137.5 degrees.
+"""
 
 from pathlib import Path
 
@@ -30,4 +35,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

@@ -1,4 +1,9 @@
-"""Figure 6.9: ever thinner stems, at 137.5 degrees."""
+"""
+Figure 6.9: radius of the stem
+==============================
+
+Ever thinner stems, at 137.5 degrees.
+"""
 
 from pathlib import Path
 
@@ -32,4 +37,4 @@ def main(output: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(output_of(__file__))
+    main(output_of())

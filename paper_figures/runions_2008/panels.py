@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 import time
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -27,10 +28,10 @@ BLADE, MARGIN = "#e6f1dc", "#6f9463"
 Box = tuple[float, float, float, float]
 
 
-def output_of(script: str) -> Path:
+def output_of() -> Path:
     """Read where a figure goes from the command line; by default a PNG of the script's name."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("-o", "--output", type=Path, default=Path(script).stem + ".png")
+    parser.add_argument("-o", "--output", type=Path, default=Path(sys.argv[0]).stem + ".png")
     return Path(parser.parse_args().output)
 
 
