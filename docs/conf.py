@@ -1,4 +1,4 @@
-"""The documentation as a site: ``python -m sphinx -W --keep-going docs docs/_build``."""
+"""The documentation as a site: ``python -m sphinx -q -W --keep-going docs docs/_build``."""
 
 import os
 import re

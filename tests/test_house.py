@@ -219,6 +219,13 @@ def test_ci_runs_the_test_command_of_the_readme():
     assert script.count("pytest") == 1
 
 
+def test_ci_builds_the_site_as_the_page_for_contributors_says():
+    script = (ROOT / ".ci" / "run").read_text()
+    (command,) = re.findall(r"&& (python -m sphinx .*)'$", script, flags=re.MULTILINE)
+    assert "-W --keep-going" in command
+    assert f"| `{command}` |" in (ROOT / "CONTRIBUTING.md").read_text()
+
+
 def test_versions_agree():
     citation = (ROOT / "CITATION.cff").read_text()
     assert f"\nversion: {vasc.__version__}\n" in citation

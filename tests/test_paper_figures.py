@@ -1,5 +1,6 @@
 """Every script of the gallery draws its figure."""
 
+import ast
 import importlib.util
 import os
 import re
@@ -93,6 +94,17 @@ def test_a_script_is_run_as_the_gallery_says(tmp_path):
     )
     assert run.returncode == 0, run.stderr
     check_picture(tmp_path / "a.png")
+
+
+@pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.stem)
+def test_a_script_begins_with_the_title_of_its_page(path):
+    text = ast.get_docstring(ast.parse(path.read_text()))
+    title, rule, blank, sentence = text.split("\n")[:4]
+    assert rule == "=" * len(title)
+    assert not blank
+    assert sentence
+    number = path.stem.removeprefix("fig_").replace("_", ".")
+    assert title.startswith(f"Figure {number}: ") or path.parent.name != "runions_2008"
 
 
 def test_the_gallery_names_every_script_and_no_other():
