@@ -25,7 +25,8 @@ extensions = [
     "sphinx_gallery.gen_gallery",
     "mathml",
 ]
-exclude_patterns = ["_build", "_extensions", "examples"]
+exclude_patterns = ["_build", "_extensions", "_templates", "examples"]
+templates_path = ["_templates"]
 
 html_theme = "pydata_sphinx_theme"
 html_title = f"vasc {release}"
@@ -47,7 +48,6 @@ myst_heading_anchors = 4
 myst_links_external_new_tab = False
 
 autosummary_generate = True
-autosummary_ignore_module_all = False
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_default_options = {"members": True, "exclude-members": "model_config"}

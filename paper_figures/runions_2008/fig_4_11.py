@@ -2,7 +2,7 @@
 Figure 4.11: relative neighbors
 ===============================
 
-The relative neighbourhood of a source, and what one neighbour excludes.
+The relative neighborhood of a source, and what one neighbor excludes.
 """
 
 from pathlib import Path

@@ -2,7 +2,7 @@
 Figure 4.13: Urquhart's approximation
 =====================================
 
-A node excludes another from a neighbourhood that it is not in itself.
+A node excludes another from a neighborhood that it is not in itself.
 """
 
 from pathlib import Path

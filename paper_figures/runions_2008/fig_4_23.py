@@ -2,7 +2,7 @@
 Figure 4.23: a poplar
 =====================
 
-Poplar leaves by exact relative neighbourhoods and by Urquhart's approximation.
+Poplar leaves by exact relative neighborhoods and by Urquhart's approximation.
 """
 
 from pathlib import Path
