@@ -24,6 +24,7 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx_gallery.gen_gallery",
     "mathml",
+    "parameter_tables",
 ]
 exclude_patterns = ["_build", "_extensions", "_templates", "examples"]
 templates_path = ["_templates"]

@@ -144,15 +144,16 @@ def test_the_python_of_the_page_on_lineage_reads_the_run(tutorial):
 
 
 def test_the_tutorial_names_what_there_is():
-    text = (ROOT / "docs" / "tutorial.md").read_text() + (ROOT / "README.md").read_text()
+    pages = ("docs/tutorial.md", "docs/commands.md", "README.md")
+    text = "".join((ROOT / page).read_text() for page in pages)
     copied = re.findall(r"^vasc configs --copy (\S+)", text, flags=re.MULTILINE)
     assert copied
     names = {path.stem for path in (ROOT / "configs").glob("*.toml")}
     assert set(copied) <= names
 
 
-def test_every_verb_of_the_readme_exists():
-    text = "".join(blocks("../README.md", "sh"))
+def test_every_verb_is_on_the_page_of_commands():
+    text = "".join(blocks("../README.md", "sh") + blocks("commands.md", "sh"))
     verbs = set(re.findall(r"(?:^|&& )vasc ([a-z]+)", text, flags=re.MULTILINE))
     for verb in sorted(verbs):
         shown = vasc(ROOT, verb, "--help")
