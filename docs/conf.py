@@ -49,6 +49,7 @@ myst_heading_anchors = 4
 myst_links_external_new_tab = False
 
 autosummary_generate = True
+toc_object_entries_show_parents = "hide"
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_default_options = {"members": True, "exclude-members": "model_config"}

@@ -30,10 +30,19 @@ def list_keys(
     for key, field in thing.model_fields.items():
         extra = field.json_schema_extra
         unit = extra.get("unit") if isinstance(extra, dict) else None
-        default = "required" if field.default is PydanticUndefined else f"``{field.default!r}``"
+        default = told(field.default)
         meaning = (field.description or "The model.").replace("*", r"\*")
         facts = f"{unit}; {default}" if unit else default
         lines += [f"    ``{key}`` ({facts})", f"        {meaning}", ""]
+
+
+def told(default: Any) -> str:
+    """Give the words for a default; tables have defaults of their own."""
+    if default is PydanticUndefined:
+        return "required"
+    if default is None or isinstance(default, Parameters):
+        return "optional"
+    return f"``{default!r}``"
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
