@@ -130,7 +130,9 @@ def test_the_python_of_the_tutorial_reads_the_run(tutorial):
 def test_the_python_of_the_page_on_lineage_reads_the_run(tutorial):
     program = "".join(blocks("lineage.md", "python"))
     program = program.replace("poplar-leaf.h5", "near.h5")
-    (tutorial / "lineage.py").write_text(program + "print(len(fates), len(births), loop, births["order"].min())\n")
+    (tutorial / "lineage.py").write_text(
+        program + "print(len(fates), len(births), loop, births.order.min())\n"
+    )
     read = subprocess.run(
         [sys.executable, "lineage.py"],
         cwd=tutorial,
