@@ -242,6 +242,12 @@ def test_links_between_pages_lead_somewhere(page):
     assert broken == []
 
 
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
+def test_links_are_followed_in_the_repository_as_on_the_site(page):
+    # a role of Sphinx is plain text where pages are read as Markdown
+    assert re.findall(r"\{(?:doc|ref|any)\}`[^`]*`", page.read_text()) == []
+
+
 def test_every_page_is_in_the_index():
     docs = ROOT / "docs"
     missing = set()

@@ -145,6 +145,18 @@ def test_the_python_of_the_page_on_lineage_reads_the_run(tutorial):
     assert re.match(r"\d+ \d+ VeinLoop\(node=1000, .*\) 1$", read.stdout)
 
 
+@pytest.mark.slow
+def test_every_command_of_the_tutorial_runs(tmp_path):
+    (config,) = (block for block in blocks("tutorial.md", "toml") if block.startswith("kind"))
+    (tmp_path / "my-leaf.toml").write_text(config)
+    text = "".join(blocks("tutorial.md", "sh"))
+    commands = re.findall(r"(?:^|&& )vasc ([^#\n]+)", text, flags=re.MULTILINE)
+    assert len(commands) > 15
+    for command in commands:
+        done = vasc(tmp_path, *command.split())
+        assert done.returncode == 0, f"{command}: {done.stderr}"
+
+
 def test_the_tutorial_names_what_there_is():
     pages = ("docs/tutorial.md", "docs/commands.md", "README.md")
     text = "".join((ROOT / page).read_text() for page in pages)
