@@ -1,7 +1,7 @@
 """Run, resume and verify: a config, a simulation and a timeline together."""
 
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from vasc.analysis.tissue_units import time_unit, unit_of
 from vasc.config import Experiment, experiment_from_record
 from vasc.domain import Blade
 from vasc.errors import RunError, TimelineError
@@ -32,6 +33,9 @@ from vasc.timeline.comparison import (
 OUTLINE_ERROR = 0.1
 """A node at most that far beyond a deformed outline, in D, may be on the margin."""
 
+ROUNDING = 1e-9
+"""Share of the length of a blade that a node on its margin may lie beyond it."""
+
 
 def never() -> bool:
     """Tell a run to go on."""
@@ -44,8 +48,14 @@ class TissueSummary:
 
     Parameters
     ----------
+    model : str
+        Its model.
     cells, walls : int
         Size of the tissue.
+    time_unit, concentration_unit : str
+        Units of time and of auxin in this model.
+    concentration_least, concentration_most : float
+        Auxin of the cells with least and most of it.
     connected : int
         Sources from which a canal has become a vein.
     vortices : int
@@ -54,8 +64,13 @@ class TissueSummary:
         Rounds that ended while walls still changed.
     """
 
+    model: str
     cells: int
     walls: int
+    time_unit: str
+    concentration_unit: str
+    concentration_least: float
+    concentration_most: float
     connected: int
     vortices: int
     unsettled: int
@@ -178,7 +193,7 @@ def run(
         for observer in observers:
             observer.observe(state, streams)
         states = simulate(model, streams, state=state, observers=observers, max_steps=steps)
-        return _recorded(recorder, state, states, started, should_stop)
+        return _recorded(recorder, state, states, experiment.record, started, should_stop)
 
 
 def resume(
@@ -218,6 +233,7 @@ def resume(
     started = time.perf_counter()
     with Timeline(path) as timeline, repeatable(timeline) as (model, streams):
         reason, is_complete = timeline.stop_reason, timeline.is_complete
+        config = timeline.config
         if timeline.n_frames:
             state = model.restore(timeline.tables(), timeline.last_step, streams)
             streams.restore(timeline.stream_words())
@@ -225,18 +241,18 @@ def resume(
             state = model.initial_state(streams)
         is_begun = timeline.n_frames > 0
     if is_complete:
-        return _summary(Path(path), state, started, reason)
+        return _summary(Path(path), state, config, started, reason)
     with Recorder.resume(path) as recorder:
         if reason is not None:
             # killed after its last step, before the file was marked as complete
             recorder.close(complete=True)
-            return _summary(recorder.path, state, started, reason)
+            return _summary(recorder.path, state, config, started, reason)
         observers = [recorder, *observers]
         if not is_begun:
             for observer in observers:
                 observer.observe(state, streams)
         states = simulate(model, streams, state=state, observers=observers, max_steps=steps)
-        return _recorded(recorder, state, states, started, should_stop)
+        return _recorded(recorder, state, states, config, started, should_stop)
 
 
 def verify(path: str | Path, *, observers: Iterable[Observer] = ()) -> list[Difference]:
@@ -300,6 +316,7 @@ def _recorded(
     recorder: Recorder,
     state: State,
     states: Iterator[State],
+    config: Mapping[str, Any],
     started: float,
     should_stop: Callable[[], bool],
 ) -> Summary:
@@ -318,11 +335,16 @@ def _recorded(
         raise RunError(f"{recorder.path}: {error}; {kept}") from error
     recorder.phases["simulate_and_record"] = time.perf_counter() - prepared
     recorder.close(outcome="interrupted" if is_interrupted else None)
-    return _summary(recorder.path, state, started, _stop_reason(state), is_interrupted)
+    return _summary(recorder.path, state, config, started, _stop_reason(state), is_interrupted)
 
 
 def _summary(
-    path: Path, state: State, started: float, reason: str | None, is_interrupted: bool = False
+    path: Path,
+    state: State,
+    config: Mapping[str, Any],
+    started: float,
+    reason: str | None,
+    is_interrupted: bool = False,
 ) -> Summary:
     """Sum up a state."""
     kinds = np.bincount(state.rows("events", "kind"), minlength=len(EventKind)).tolist()
@@ -339,20 +361,27 @@ def _summary(
         loops=kinds[EventKind.LOOP_CLOSED],
         stalls_resolved=kinds[EventKind.STALL_RESOLVED],
         nodes_outside=None if state.blade is None else _count_outside(state, state.blade),
-        tissue=_tissue_summary(state, kinds),
+        tissue=_tissue_summary(state, config, kinds),
         wall_seconds=time.perf_counter() - started,
         stop_reason=reason,
         is_interrupted=is_interrupted,
     )
 
 
-def _tissue_summary(state: State, kinds: list[int]) -> TissueSummary | None:
+def _tissue_summary(
+    state: State, config: Mapping[str, Any], kinds: list[int]
+) -> TissueSummary | None:
     """Sum up a state of a tissue, given the numbers of events; None without cells."""
-    if state.tissue is None:
+    if state.tissue is None or state.fields is None:
         return None
     return TissueSummary(
+        model=str(config["kind"]),
         cells=state.tissue.n_cells,
         walls=state.tissue.n_walls,
+        time_unit=time_unit(config),
+        concentration_unit=unit_of(config, "concentration"),
+        concentration_least=float(state.fields.concentration.min()),
+        concentration_most=float(state.fields.concentration.max()),
         connected=kinds[EventKind.SOURCE_REMOVED],
         vortices=kinds[EventKind.VORTEX_FORMED],
         unsettled=kinds[EventKind.CANALS_UNSETTLED],
@@ -367,10 +396,10 @@ def _count_outside(state: State, blade: Blade) -> int:
     is_outside &= network.origins != Origin.SEED
     is_outside[network.retired] = False
     outside = np.flatnonzero(is_outside)
-    if state.places is not None:
-        # the recorded outline is a polygon, nodes on the margin are between its corners
-        outside = outside[blade.margin_distance(network.positions[outside]) > OUTLINE_ERROR]
-    return len(outside)
+    # the recorded outline of a deformed blade is a polygon, nodes on the margin are between its
+    # corners; in others a node on the margin lies beyond it by rounding alone
+    slack = ROUNDING * blade.length if state.places is None else OUTLINE_ERROR
+    return int((blade.margin_distance(network.positions[outside]) > slack).sum())
 
 
 def _growth_name(experiment: Experiment) -> str:

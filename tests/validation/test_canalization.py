@@ -26,7 +26,7 @@ from vasc.validation.canalization.geometric import (
     relative_neighbors,
     spanning_tree,
 )
-from vasc.validation.canalization.hit_rates import hit_rates, outcomes, summary
+from vasc.validation.canalization.hit_rates import EXACT, hit_rates, outcomes, summary
 from vasc.validation.canalization.leaves import leaf
 from vasc.validation.canalization.protocols import PROTOCOLS
 from vasc.validation.canalization.rates import agreeing_rates, same_rate, wilson
@@ -293,12 +293,16 @@ def test_the_suite_passes():
 def test_facilitated_diffusion_reaches_the_nearest_of_clearly_apart_veins(tissue):
     cases = [(tissue, scenario, "facilitated") for scenario in SCENARIOS]
     rows = hit_rates(cases, range(5000, 5100), 1.0)
+    # below sqrt(1/2) on squares, sqrt(3/4) on hexagons all: the nearest is so over cells, too
     hits, n = (sum(row[key] for row in rows) for key in ("hit_exacts", "hit_exact_n"))
     assert n >= 200
     assert hits == n
-    # square cells make diagonal ways long: 5 of 571 were missed below 0.8
+    # above, square cells make diagonal ways long: 5 of 1,441 were missed below 0.8
     hits, n = (sum(row[key] for row in rows) for key in ("hit_clears", "hit_clear_n"))
-    assert hits >= 0.98 * n
+    assert n >= 200
+    assert hits >= suite.CLEAR_LEAST * n
+    missed = [row["miss_q_min"] for row in rows if row["miss_q_min"] is not None]
+    assert all(q >= EXACT[tissue] for q in missed)
 
 
 @pytest.mark.slow
