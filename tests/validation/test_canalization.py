@@ -269,7 +269,12 @@ def test_the_suite_is_told_and_written(tmp_path, monkeypatch, capsys):
     shown = capsys.readouterr().out
     assert "open rule" in shown
     assert "rectangular P2  facilitated" in shown
+    assert "0.707 on squares and 0.866 on hexagons" in shown
     written = json.loads(path.read_text())
+    (first, _) = written["tables"]["hit_rates"]
+    assert (first["reference_hits"], first["reference_n"]) == (58, 60)
+    assert (first["reference_low"], first["reference_high"]) == pytest.approx(wilson(58, 60))
+    assert first["p"] == same_rate(first["hits"], 5, 58, 60)
     assert written["n"] == 5
     assert {"name", "value", "low", "high", "source", "pass"} == set(written["checks"][0])
     assert main(["validate", "canalization", "-o", str(path)]) == 2
@@ -280,9 +285,44 @@ def test_the_suite_is_told_and_written(tmp_path, monkeypatch, capsys):
     assert "only the suite canalization" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("n", [5, 20, 200])
+def test_the_suite_counts_the_parts_that_it_tells_of(n, monkeypatch):
+    told = []
+    monkeypatch.setattr(suite, "_of_rates", lambda rows: iter(()))
+    monkeypatch.setattr(suite, "_of_trees", lambda tables: iter(()))
+    monkeypatch.setattr(suite, "_of_figure", lambda rows: iter(()))
+    monkeypatch.setattr(suite, "against_reference", lambda row: {})
+
+    def idle(count):
+        def parts(*arguments, progress=None, **options):
+            tell = arguments[0] if progress is None else progress
+            for number in range(count):
+                tell(f"part {number}")
+            return []
+
+        return parts
+
+    for name, count in (
+        ("figure_rows", len(TISSUES) * len(FIGURE_PROTOCOLS)),
+        ("hit_rates", len(suite.rate_cases(n))),
+        ("sequential", suite.n_leaves(n)),
+        ("areoles", 2 * len(AREOLE_PROTOCOLS)),
+        ("simultaneous", suite.n_sets(n)),
+        ("background_scan", len(TISSUES) * 3 * 4),
+        ("_of_threshold", 1),
+        ("_of_scheme", 2),
+    ):
+        monkeypatch.setattr(suite, name, idle(count))
+    suite.validate_canalization(told.append, n)
+    assert told[0].startswith(f"1 of {len(told)}: ")
+    assert told[-1].startswith(f"{len(told)} of {len(told)}: ")
+
+
 @pytest.mark.slow
 def test_the_suite_passes():
-    found = suite.validate_canalization()
+    told = []
+    found = suite.validate_canalization(told.append)
+    assert told[-1].startswith(f"{len(told)} of {len(told)}: ")
     assert [check["name"] for check in found["checks"] if not check["pass"]] == []
     assert len(found["checks"]) > 60
     json.dumps(found, allow_nan=False)
@@ -297,7 +337,7 @@ def test_facilitated_diffusion_reaches_the_nearest_of_clearly_apart_veins(tissue
     hits, n = (sum(row[key] for row in rows) for key in ("hit_exacts", "hit_exact_n"))
     assert n >= 200
     assert hits == n
-    # above, square cells make diagonal ways long: 5 of 1,441 were missed below 0.8
+    # above, square cells make diagonal ways long: 5 of 571 were missed below 0.8
     hits, n = (sum(row[key] for row in rows) for key in ("hit_clears", "hit_clear_n"))
     assert n >= 200
     assert hits >= suite.CLEAR_LEAST * n

@@ -266,23 +266,27 @@ class GottliebParameters(Parameters):
     reference: str = quantity("The figure or paper it follows.", default="")
     seed: int = quantity("Seed of all randomness; the model draws none.", default=1, ge=0, lt=2**63)
     domain: BladeParameters = quantity("The blade at step 0.")
-    doublings: int = quantity("Steps, in each of which the blade doubles.", default=4, ge=1, le=12)
+    doublings: int = quantity(
+        "Steps, in each of which the blade doubles; at most 12.", default=4, ge=1, le=12
+    )
     space: float = quantity(
-        "A source appears while the largest empty circle has a radius larger than this.",
+        "A source appears while the largest empty circle has a radius larger than this; from 1e-3"
+        " to at most 1e6.",
         unit="D",
         ge=1e-3,
         le=1e6,
     )
     reach: float | None = quantity(
         "Each source is connected with all veins in sight and so near, at least with the closest;"
-        " by default with the closest alone, so that veins form no loops.",
+        " by default with the closest alone, so that veins form no loops. At most 1e6.",
         unit="D",
         default=None,
         gt=0.0,
         le=1e6,
     )
     longest: float = quantity(
-        "Greatest length of a segment after growth: veins can be met at its ends.",
+        "Greatest length of a segment after growth: veins can be met at its ends; at most 1e6, and"
+        " not more than space.",
         unit="D",
         default=1.0,
         gt=0.0,

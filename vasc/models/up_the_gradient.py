@@ -49,7 +49,7 @@ class AuxinRates(Parameters):
         "Production, rho; at most 1.", unit="Au/um2/s", default=3e-4, gt=0.0, le=1.0
     )
     decay: float = quantity(
-        "Decay, mu; from 1e-6 to 10.", unit="1/s", default=5e-3, ge=1e-6, le=10.0
+        "Decay, mu; from 1e-6 to at most 10.", unit="1/s", default=5e-3, ge=1e-6, le=10.0
     )
     diffusion: float = quantity(
         "Passive permeation, D; at most 1e4.", unit="um/s", default=10.0, ge=0.0, le=1e4
@@ -88,14 +88,15 @@ class TimeParameters(Parameters):
     """Steps of time, and rest."""
 
     time_step: float = quantity(
-        "Step of the integration, from 1e-6 to 1000; no cell may lose more in a step than it has.",
+        "Step of the integration, from 1e-6 to at most 1000; no cell may lose more in a step than"
+        " it has.",
         unit="s",
         default=0.01,
         ge=1e-6,
         le=1e3,
     )
     recorded: int = quantity(
-        "Such steps between two records, at most ten million.", default=1000, ge=1, le=10**7
+        "Such steps between two records, at most 10000000.", default=1000, ge=1, le=10**7
     )
     rest: float = quantity(
         "The tissue is at rest when no cell changes by more than that share of its largest"
@@ -209,8 +210,8 @@ class UpTheGradientParameters(TissueExperiment):
 
     kind: Literal["up-the-gradient"] = "up-the-gradient"
     width: float = quantity(
-        "One D, the width of a cell; by default that of a hexagon with sides of 10 um; from 0.1 um"
-        " to 1 cm, which holds the cells of all plants.",
+        "One D, the width of a cell; by default that of a hexagon with sides of 10 um; from 0.1"
+        " to at most 10000, which holds the cells of all plants.",
         unit="um",
         default=HEXAGON,
         ge=0.1,

@@ -38,8 +38,8 @@ from vasc.validation.canalization_references import (
 )
 
 CLEAR_LEAST = 0.99
-"""Share of clear scenarios whose canal reaches the nearest vein at least; measured was 0.997
-(1,436 of 1,441), and 0.991 (566 of 571) in the scenarios of the tests."""
+"""Share of clear scenarios whose canal reaches the nearest vein at least; on squares 0.991 was
+measured (566 of 571), on hexagons and Voronoi cells all (870 of 870)."""
 FULL = 200
 """Scenarios a row of the full suite."""
 DEFAULT = 20
@@ -218,13 +218,16 @@ def _of_rates(rows: list[dict[str, Any]]) -> Iterator[Check]:
     exact = [row for row in rows if row["protocol"] == "facilitated"]
     for tissue in TISSUES:
         found = [row for row in exact if row["tissue"] == tissue]
-        # ways over square cells are longer along diagonals: 5 of 1,441 clear ones were missed
+        # ways over square cells are longer along diagonals, so that some clear ones are missed
         limits = {"clear": (CLEAR, CLEAR_LEAST), "exact": (EXACT[tissue], 1.0)}
         for kind, (limit, least) in limits.items():
             if kind == "clear" and EXACT[tissue] >= limit:
                 continue
             hits, n = (sum(row[f"hit_{kind}{end}"] for row in found) for end in ("s", "_n"))
             name = f"{tissue}, facilitated: the same where d/d2 < {limit:.3g} (n = {n})"
+            if kind == "clear":
+                # in few, a single miss is no evidence
+                least = min(least, 1.0 - 1.0 / max(n, 1))
             yield check(name, hits / max(n, 1), least, 1.0, CLAIM)
     for tissue in LATTICES:
         found = [row for row in exact if row["tissue"] == tissue]
