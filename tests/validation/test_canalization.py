@@ -81,7 +81,8 @@ def test_the_closed_rule_names_veins_on_both_sides():
 def test_wilson_intervals_hold_known_ones():
     assert wilson(57, 60) == pytest.approx((0.863, 0.983), abs=0.001)
     assert wilson(0, 10) == pytest.approx((0.0, 0.278), abs=0.001)
-    assert wilson(10, 10)[1] == pytest.approx(1.0)
+    assert wilson(60, 60)[1] == wilson(10, 10)[1] == 1.0
+    assert wilson(0, 60)[0] == 0.0
     assert wilson(0, 0) == (0.0, 1.0)
 
 
