@@ -22,8 +22,6 @@ def print_canalization(suite: dict) -> None:
 
 def _print_answers(suite: dict) -> None:
     """Write how often canals reach what the rules of geometry predict."""
-    from vasc.validation.canalization.hit_rates import EXACT
-
     typer.echo(
         "\nDoes a canal reach the vein that the geometric rule predicts?"
         f" Rates of {suite['n']} scenarios:"
@@ -60,6 +58,13 @@ def _print_answers(suite: dict) -> None:
             f"not where two veins are given: {row['tissue']}, {row['protocol']}, {row['case']}"
             f" (d/d2 = {row['q']:.2f})"
         )
+    _explain()
+
+
+def _explain() -> None:
+    """Say what the columns are."""
+    from vasc.validation.canalization.hit_rates import EXACT
+
     typer.echo(
         "open rule: the nearest vein; closed rule: the veins of all relative neighbors,"
         " which may be\nseveral; d/d2: distance of the nearest vein over that of the second;"

@@ -11,7 +11,7 @@ from vasc.cli.interrupts import Interrupts
 from vasc.cli.printing import file_size, print_json, print_pairs
 
 if TYPE_CHECKING:
-    from vasc.experiment import Summary, TissueSummary
+    from vasc.analysis.summaries import Summary, TissueSummary
 
 REASONS = {
     "no_sources": "growth and placement are over, no source is left",
