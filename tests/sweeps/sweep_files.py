@@ -80,6 +80,13 @@ def children(process_id):
     return [int(word) for task in tasks for word in task.read_text().split()]
 
 
+def is_told(process_id, number):
+    """Tell whether a signal waits for a process that is held."""
+    status = Path(f"/proc/{process_id}/status").read_text().splitlines()
+    waiting = [int(line.split()[1], 16) for line in status if line.startswith("ShdPnd:")]
+    return bool(waiting[0] >> (number - 1) & 1)
+
+
 def is_under_way(folder, number, n_steps=40):
     """Tell whether a run has recorded some steps and has no result."""
     path = folder / "runs" / f"{number:04d}.h5"

@@ -7,7 +7,16 @@ import shutil
 import signal
 
 import pytest
-from sweeps.sweep_files import LONG, children, is_under_way, sessions, start, wait_until, write
+from sweeps.sweep_files import (
+    LONG,
+    children,
+    is_told,
+    is_under_way,
+    sessions,
+    start,
+    wait_until,
+    write,
+)
 
 from vasc.cli import main
 from vasc.sweeps import LocalWorkers, load_sweep, run_sweep
@@ -113,9 +122,16 @@ def test_a_killed_sweep_leaves_no_worker(tmp_path):
 def test_a_signal_stops_the_workers_with_a_sentence(number, code, tmp_path, long):
     arguments = ["sweep", "small.toml", "-o", "out", "--workers", "2"]
     sweep = start(write(tmp_path, LONG).parent, *arguments)
-    wait_until(lambda: is_under_way(tmp_path / "out", 1))
+    wait_until(lambda: is_under_way(tmp_path / "out", 1, n_steps=5))
     workers = children(sweep.pid)
+    # a fast machine would end its runs before it hears: no worker moves until it has been told
+    for worker in workers:
+        os.kill(worker, signal.SIGSTOP)
+    assert not (tmp_path / "out" / "runs" / "0001.json").exists()
     sweep.send_signal(number)
+    wait_until(lambda: all(is_told(worker, signal.SIGTERM) for worker in workers))
+    for worker in workers:
+        os.kill(worker, signal.SIGCONT)
     said, errors = sweep.communicate(timeout=60)
     assert sweep.returncode == code
     assert said == ""
