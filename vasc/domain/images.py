@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from vasc.arrays import Points
 from vasc.errors import OutlineError
+from vasc.limits import IMAGE_PIXELS
 
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-MAX_PIXELS = 64_000_000
 FORMATS = ("PNG", "TIFF", "JPEG")
 LEAST_SHARE = 0.01
 """Spots and holes smaller than this share of the largest part are dirt or light veins."""
@@ -76,9 +76,10 @@ def rings_of_image(content: bytes) -> list[Points]:
 def _of_allowed_size(image: "Image") -> "Image":
     """Give the image back if its header claims a size that can be handled."""
     width, height = image.size
-    if width * height > MAX_PIXELS:
+    if width * height > IMAGE_PIXELS:
         raise OutlineError(
-            f"outline: the image has {width} x {height} pixels; at most {MAX_PIXELS:,} are allowed"
+            f"outline: the image has {width} x {height} pixels;"
+            f" at most {IMAGE_PIXELS:,} are allowed"
         )
     return image
 

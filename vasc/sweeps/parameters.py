@@ -4,10 +4,8 @@ from typing import Any, Literal, Self
 
 from pydantic import model_validator
 
+from vasc.limits import SWEEP_RUNS
 from vasc.parameters import Parameters, quantity
-
-MOST_RUNS = 100_000
-"""Runs that a sweep may have: each is a file, and a folder holds no more with ease."""
 
 
 class Span(Parameters):
@@ -92,9 +90,9 @@ class SweepParameters(Parameters):
             if not values:
                 raise ValueError(f'axes."{key}" = []: must be a list of one or more values')
             number *= values.num if isinstance(values, Range) else len(values)
-        if number > MOST_RUNS:
+        if number > SWEEP_RUNS:
             raise ValueError(
                 f"axes, draws and replicates make {number:,} runs; at most "
-                f"{MOST_RUNS:,} are possible"
+                f"{SWEEP_RUNS:,} are possible"
             )
         return self
