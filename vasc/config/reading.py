@@ -9,6 +9,8 @@ from vasc.errors import ConfigError
 from vasc.limits import CONFIG_BYTES, CONFIG_DEPTH
 
 _HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
+_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')"""
+_LONG_KEY = re.compile(rf"""(?<![\w."'-]){_PART}(?:[ \t]*+\.[ \t]*+{_PART}){{100}}""")
 _PLACE = re.compile(r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)$")
 
 
@@ -66,6 +68,9 @@ def parse(text: str, name: str) -> dict[str, Any]:
     ConfigError
         If the text is not TOML; the message names line and column.
     """
+    if _LONG_KEY.search(text):
+        # tomllib would take memory for each level of each key
+        raise ConfigError(f"{name}: lists or tables are nested too deeply")
     try:
         tables = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:

@@ -15,6 +15,9 @@ from vasc.domain.normalization import Attachment, Tip, counter_clockwise, normal
 from vasc.errors import OutlineError, ShapeError
 from vasc.limits import FILE_BYTES, FILE_DEPTH, OUTLINE_POINTS
 
+LONGEST_REASON = 120
+"""Characters of a reason that a library gives: some quote what they read in full."""
+
 
 def read_outline(
     path: Path | str, *, attachment: Attachment = "lowest", tip: Tip = "highest"
@@ -226,7 +229,8 @@ def read_wkt(content: bytes) -> Outline:
     try:
         geometry = shapely.from_wkt(re.sub(r"^SRID=\d+;", "", text))
     except shapely.GEOSException as error:
-        raise OutlineError(f"outline: not a well-known text: {error}") from error
+        said = " ".join(str(error).split())[:LONGEST_REASON]
+        raise OutlineError(f"outline: not a well-known text: {said}") from error
     rings = []
     for part in shapely.get_parts(shapely.get_parts(geometry)):
         lines = [part.exterior, *part.interiors] if part.geom_type == "Polygon" else [part]

@@ -215,7 +215,9 @@ def _path(attributes: Attributes) -> Iterator[Points]:
                 raise OutlineError(f"outline: more than {OUTLINE_POINTS:,} points")
         yield from _finished(points, is_closed)
     except (ValueError, IndexError, TypeError, AssertionError, ArithmeticError) as error:
-        raise OutlineError(f"outline: path '{text[:40]}' cannot be read: {error}") from error
+        raise OutlineError(
+            f"outline: path '{text[:40]}' cannot be read: {str(error)[:80]}"
+        ) from error
 
 
 def _is_mere_line(attributes: Attributes, text: str) -> bool:
