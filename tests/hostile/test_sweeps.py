@@ -94,7 +94,7 @@ def test_the_limit_of_runs_is_exact(more, is_planned):
         ("x = " + "[" * 100_000, "nested too deeply"),
         ("seed = 0x" + "f" * 5000, "at most 64 bits"),
         ("seed = 1e999", "must be a finite number"),
-        ('base = "/dev/zero"\nmeasures = ["summary.nodes"]', "base"),
+        ('base = "/dev/zero"\nmeasures = ["summary.nodes"]', "larger than 1,000,000 bytes"),
         ('base = "a\\u0000b"\nmeasures = ["summary.nodes"]', "base"),
     ],
 )
