@@ -205,8 +205,9 @@ def test_a_config_from_elsewhere_is_not_read(path):
     with h5py.File(path, "r+") as file:
         del file["config/toml"]
         file["config/toml"] = h5py.ExternalLink("secret.h5", "birth")
-    (line,) = refused("show", path)
-    assert "link to elsewhere" in line
+    code, (line,), _ = ending("show", path)
+    assert code == 2
+    assert "link to elsewhere; refused" in line
 
 
 @pytest.mark.parametrize("n_groups", [2000, pytest.param(100_000, marks=pytest.mark.slow)])
@@ -222,7 +223,7 @@ def test_attributes_of_others_cost_nothing(path):
     with h5py.File(path, "r+") as file:
         file.attrs["text of others"] = "x" * 50_000
         others = file.create_group("of_others")
-        for number in range(500):
+        for number in range(20):
             others.attrs[f"numbers {number}"] = np.zeros(8000)
     code, lines, _ = ending("show", path)
     assert (code, lines) == (0, [])
