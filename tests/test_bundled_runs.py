@@ -7,6 +7,7 @@ from vasc.analysis.topology import count_components, count_cycles, free_ends
 from vasc.config import load, parse_override
 from vasc.config.bundled import bundled_configs
 from vasc.config.expected import expected_size
+from vasc.events import EventKind
 from vasc.experiment import run, verify
 from vasc.network import Origin
 from vasc.simulation import simulate
@@ -106,13 +107,18 @@ def test_canals_of_all_sources_become_veins(name, tmp_path):
 
 
 @pytest.mark.parametrize("kind", [["rectangular"], ["hexagonal", "rows=19"], ["voronoi"]])
-@pytest.mark.parametrize("side", ["left", "right", "polar"])
+@pytest.mark.parametrize("side", ["left", "right", "polar", "pool"])
 def test_of_two_veins_the_nearer_one_is_reached_on_any_cells(side, kind):
     overrides = [parse_override(f"domain.kind={kind[0]}")]
     overrides += [parse_override(f"domain.{one}") for one in kind[1:]]
     parameters = load(f"mitchison-two-sinks-{side}", overrides).parameters
     streams = Streams(parameters.seed, parameters.stream_names)
     *_, state = simulate(parameters.model(), streams)
+    kinds = state.rows("events", "kind")
+    assert EventKind.CANALS_UNSETTLED not in kinds
+    assert EventKind.CANALS_SETTLED in kinds
+    if side in ("polar", "pool"):
+        assert parameters.transport.kind == side
     # the first new node extends the vein that the canal leads to
     assert state.rows("nodes", "parent")[2] == (1 if side == "right" else 0)
 
@@ -162,5 +168,7 @@ def test_the_whole_run_of_another_model_ends_and_repeats(name, tmp_path):
     summary = run(experiment, path)
     assert summary.stop_reason == ("no_sources" if experiment.kind == "gottlieb" else "at_rest")
     assert summary.sources_left == 0
+    # straight veins go around a bay of the outline, not across it
+    assert summary.nodes_outside == 0
     assert validate(path) == []
     assert verify(path) == []

@@ -128,9 +128,11 @@ def test_the_python_of_the_tutorial_reads_the_run(tutorial):
 
 
 def test_the_python_of_the_page_on_lineage_reads_the_run(tutorial):
-    (program,) = blocks("lineage.md", "python")
+    program = "".join(blocks("lineage.md", "python"))
     program = program.replace("poplar-leaf.h5", "near.h5")
-    (tutorial / "lineage.py").write_text(program + "print(len(fates), len(births), loop)\n")
+    (tutorial / "lineage.py").write_text(
+        program + "print(len(fates), len(births), loop, births.order.min())\n"
+    )
     read = subprocess.run(
         [sys.executable, "lineage.py"],
         cwd=tutorial,
@@ -140,7 +142,7 @@ def test_the_python_of_the_page_on_lineage_reads_the_run(tutorial):
         check=False,
     )
     assert read.returncode == 0, read.stderr
-    assert re.match(r"\d+ \d+ VeinLoop\(node=1000, ", read.stdout)
+    assert re.match(r"\d+ \d+ VeinLoop\(node=1000, .*\) 1$", read.stdout)
 
 
 def test_the_tutorial_names_what_there_is():

@@ -1,22 +1,20 @@
 """Run, resume and verify: a config, a simulation and a timeline together."""
 
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from vasc.analysis.summaries import Summary, summed_up
 from vasc.config import Experiment, experiment_from_record
 from vasc.config.expected import expected_size, refuse_what_no_machine_holds
-from vasc.domain import Blade
 from vasc.errors import RunError, TimelineError
 from vasc.events import EventKind, StopReason
 from vasc.models.base import Model
 from vasc.models.colonization import Colonization
-from vasc.network import Origin
 from vasc.simulation import Observer, simulate
 from vasc.state import State
 from vasc.streams import Streams
@@ -31,85 +29,10 @@ from vasc.timeline.comparison import (
     table_differences,
 )
 
-OUTLINE_ERROR = 0.1
-"""A node at most that far beyond a deformed outline, in D, may be on the margin."""
-
 
 def never() -> bool:
     """Tell a run to go on."""
     return False
-
-
-@dataclass(frozen=True)
-class TissueSummary:
-    """What came of a run on a tissue, besides.
-
-    Parameters
-    ----------
-    cells, walls : int
-        Size of the tissue.
-    connected : int
-        Sources from which a canal has become a vein.
-    vortices : int
-        Rounds of sources in which more circulated than was made.
-    unsettled : int
-        Rounds that ended while walls still changed.
-    """
-
-    cells: int
-    walls: int
-    connected: int
-    vortices: int
-    unsettled: int
-
-
-@dataclass(frozen=True)
-class Summary:
-    """What came of a run.
-
-    Parameters
-    ----------
-    output : Path
-        The timeline.
-    steps : int
-        The last recorded step.
-    time : float
-        Model time at that step.
-    nodes, segments : int
-        Size of the network at that step.
-    sources_placed, sources_left : int
-        Sources that ever appeared, and those alive.
-    joins, loops : int
-        Segments that joined two veins, and those of them that closed a loop.
-    stalls_resolved : int
-        Times the stall rule chose a direction.
-    nodes_outside : int or None
-        Nodes that lie outside the blade, seeds left out; None for a stem, which has none.
-    tissue : TissueSummary or None
-        What only runs on a tissue have.
-    wall_seconds : float
-        Time this session took.
-    stop_reason : str or None
-        Why the run ended, None if it can go on.
-    is_interrupted : bool
-        True when the caller stopped it.
-    """
-
-    output: Path
-    steps: int
-    time: float
-    nodes: int
-    segments: int
-    sources_placed: int
-    sources_left: int
-    joins: int
-    loops: int
-    stalls_resolved: int
-    nodes_outside: int | None
-    tissue: TissueSummary | None
-    wall_seconds: float
-    stop_reason: str | None
-    is_interrupted: bool = False
 
 
 def run(
@@ -187,7 +110,7 @@ def run(
         for observer in observers:
             observer.observe(state, streams)
         states = simulate(model, streams, state=state, observers=observers, max_steps=steps)
-        return _recorded(recorder, state, states, started, should_stop)
+        return _recorded(recorder, state, states, experiment.record, started, should_stop)
 
 
 def resume(
@@ -227,6 +150,7 @@ def resume(
     started = time.perf_counter()
     with Timeline(path) as timeline, repeatable(timeline) as (model, streams):
         reason, is_complete = timeline.stop_reason, timeline.is_complete
+        config = timeline.config
         if timeline.n_frames:
             state = model.restore(timeline.tables(), timeline.last_step, streams)
             streams.restore(timeline.stream_words())
@@ -234,18 +158,18 @@ def resume(
             state = model.initial_state(streams)
         is_begun = timeline.n_frames > 0
     if is_complete:
-        return _summary(Path(path), state, started, reason)
+        return summed_up(Path(path), state, config, started, reason)
     with Recorder.resume(path) as recorder:
         if reason is not None:
             # killed after its last step, before the file was marked as complete
             recorder.close(complete=True)
-            return _summary(recorder.path, state, started, reason)
+            return summed_up(recorder.path, state, config, started, reason)
         observers = [recorder, *observers]
         if not is_begun:
             for observer in observers:
                 observer.observe(state, streams)
         states = simulate(model, streams, state=state, observers=observers, max_steps=steps)
-        return _recorded(recorder, state, states, started, should_stop)
+        return _recorded(recorder, state, states, config, started, should_stop)
 
 
 def verify(path: str | Path, *, observers: Iterable[Observer] = ()) -> list[Difference]:
@@ -309,6 +233,7 @@ def _recorded(
     recorder: Recorder,
     state: State,
     states: Iterator[State],
+    config: Mapping[str, Any],
     started: float,
     should_stop: Callable[[], bool],
 ) -> Summary:
@@ -327,59 +252,7 @@ def _recorded(
         raise RunError(f"{recorder.path}: {error}; {kept}") from error
     recorder.phases["simulate_and_record"] = time.perf_counter() - prepared
     recorder.close(outcome="interrupted" if is_interrupted else None)
-    return _summary(recorder.path, state, started, _stop_reason(state), is_interrupted)
-
-
-def _summary(
-    path: Path, state: State, started: float, reason: str | None, is_interrupted: bool = False
-) -> Summary:
-    """Sum up a state."""
-    kinds = np.bincount(state.rows("events", "kind"), minlength=len(EventKind)).tolist()
-    network = state.network
-    return Summary(
-        output=path,
-        steps=state.step,
-        time=state.time,
-        nodes=network.n_vein_nodes,
-        segments=network.n_segments,
-        sources_placed=kinds[EventKind.SOURCE_PLACED],
-        sources_left=len(state.live),
-        joins=kinds[EventKind.VEIN_JOINED],
-        loops=kinds[EventKind.LOOP_CLOSED],
-        stalls_resolved=kinds[EventKind.STALL_RESOLVED],
-        nodes_outside=None if state.blade is None else _count_outside(state, state.blade),
-        tissue=_tissue_summary(state, kinds),
-        wall_seconds=time.perf_counter() - started,
-        stop_reason=reason,
-        is_interrupted=is_interrupted,
-    )
-
-
-def _tissue_summary(state: State, kinds: list[int]) -> TissueSummary | None:
-    """Sum up a state of a tissue, given the numbers of events; None without cells."""
-    if state.tissue is None:
-        return None
-    return TissueSummary(
-        cells=state.tissue.n_cells,
-        walls=state.tissue.n_walls,
-        connected=kinds[EventKind.SOURCE_REMOVED],
-        vortices=kinds[EventKind.VORTEX_FORMED],
-        unsettled=kinds[EventKind.CANALS_UNSETTLED],
-    )
-
-
-def _count_outside(state: State, blade: Blade) -> int:
-    """Count the nodes that lie outside the blade."""
-    network = state.network
-    # a seed lies on the margin, where the petiole is attached
-    is_outside = ~blade.contains(network.positions)
-    is_outside &= network.origins != Origin.SEED
-    is_outside[network.retired] = False
-    outside = np.flatnonzero(is_outside)
-    if state.places is not None:
-        # the recorded outline is a polygon, nodes on the margin are between its corners
-        outside = outside[blade.margin_distance(network.positions[outside]) > OUTLINE_ERROR]
-    return len(outside)
+    return summed_up(recorder.path, state, config, started, _stop_reason(state), is_interrupted)
 
 
 def _growth_name(experiment: Experiment) -> str:

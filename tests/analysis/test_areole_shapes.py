@@ -103,3 +103,14 @@ def test_far_from_the_origin():
     near = honeycomb(3, 3)
     far = network(near.positions + 1e6, near.segments)
     assert find_areoles(far).elongations == pytest.approx(find_areoles(near).elongations, rel=1e-4)
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e6])
+@pytest.mark.parametrize(("height", "n_flat"), [(1e-14, 1), (1e-10, 0)])
+def test_a_face_within_rounding_is_no_areole(size, height, n_flat):
+    # a square, one side of which is drawn twice, but for a hair
+    points = [(0, 0), (1, 0), (1, 1), (0, 1), (0.5, height)]
+    net = network(size * np.array(points), [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (4, 1)])
+    found = find_areoles(net)
+    assert (found.n_areoles, found.n_flat) == (2 - n_flat, n_flat)
+    assert found.areas.max() == pytest.approx(size**2)

@@ -60,7 +60,10 @@ def test_a_run_says_what_it_runs_and_what_came_of_it(canals, capsys):
     found = dict(line.split("  ", 1) for line in lines[6:])
     with Timeline("canals.h5") as timeline:
         assert int(found["steps"]) == timeline.last_step
-        assert found["time"].strip() == f"{timeline.frame().time:.6g}"
+        time = f"{timeline.frame().time:.6g} turnover times of a wall"
+        assert found["time"].strip() == time
+        most = timeline.fields(-1).concentration.max()
+        assert found["auxin"].strip() == f"0 to {most:.4g} Kγ/β"
     assert found["cells"].strip() == "117, with 212 walls between them"
     assert found["sources"].strip() == "3 placed, 3 connected to a vein"
     assert found["rounds unsettled"].strip() == found["vortices"].strip() == "0"
@@ -221,3 +224,55 @@ def test_a_run_that_diverged_is_not_said_to_go_on(tmp_path, capsys):
     said = capsys.readouterr().out
     assert "with an error" in said
     assert "goes on" not in said
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "unit", "own", "lacking"),
+    [
+        (
+            "up-the-gradient",
+            ["domain.columns=6", "domain.rows=5", "times.recorded=10"],
+            "Au/µm²",
+            "60 s",
+            ["sources", "rounds", "vortices", "nodes", "segments", "vein"],
+        ),
+        (
+            "constant-production",
+            ["domain.rows=11"],
+            "K D²/D_c",
+            "steps",
+            ["sources", "rounds", "vortices"],
+        ),
+    ],
+)
+def test_models_without_sources_are_summed_up_in_their_own_words(
+    tmp_path, capsys, name, changes, unit, own, lacking
+):
+    output = str(tmp_path / "run.h5")
+    words = [word for change in changes for word in ("--set", change)]
+    assert main(["run", name, "-o", output, "--no-figure", "--steps", "120", *words]) == 0
+    ran = capsys.readouterr().out.partition(" a step")[0] + capsys.readouterr().out
+    assert main(["resume", output]) == 0
+    capsys.readouterr()
+    assert main(["show", output]) == 0
+    shown = capsys.readouterr().out.partition("\nevents")[0]
+    assert unit in shown
+    assert "turnover" not in ran + shown
+    for word in lacking:
+        assert not [line for line in shown.splitlines() if line.startswith(word)]
+    assert "no source is to come" not in shown
+    assert own.split(" ")[-1] in shown
+    assert main(["show", output, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["auxin_unit"] == unit
+    assert found["auxin"][0] <= found["auxin"][1]
+
+
+@pytest.mark.parametrize("key", ["growth", "arrival"])
+def test_a_table_of_other_models_is_to_be_removed(canals, capsys, key):
+    assert main(["run", "canals.toml", "--no-figure", "--set", f"{key}.kind=none"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.endswith(
+        f'unknown key; other models have {key}, kind "canalization" has none: remove the table'
+        f" [{key}]"
+    )

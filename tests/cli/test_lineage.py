@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from reference.stem_run import STEM
 
+from vasc.analysis import WidthParameters, run_node_orders
 from vasc.cli import main
 from vasc.timeline import Timeline
 
@@ -36,7 +37,10 @@ def output(arguments, capsys):
 @pytest.mark.parametrize(("option", "name"), TABLES.items())
 def test_a_table_is_the_same_in_json_csv_and_python(leaf, option, name, capsys):
     with Timeline(leaf) as timeline:
-        table = timeline.lineage.table(name)
+        widths = WidthParameters.model_validate(timeline.config.get("widths") or {})
+        n_nodes = timeline.n_rows("nodes")
+        orders = run_node_orders(timeline.frame, timeline.last_step, widths, n_nodes)
+        table = timeline.lineage.table(name, orders)
     found = json.loads(output(["lineage", leaf, option, "--json"], capsys))
     rows = list(csv.DictReader(io.StringIO(output(["lineage", leaf, option, "--csv"], capsys))))
     n_rows = len(next(iter(table.values())))
@@ -83,7 +87,7 @@ def test_the_loop_of_a_vein(leaf, capsys):
         node = timeline.n_rows("nodes") - 1
         known = timeline.lineage.loop_of(node)
     found = json.loads(output(["lineage", leaf, "--loop", str(node), "--json"], capsys))
-    assert (found["vein"], found["order"]) == (known.vein, known.order)
+    assert (found["vein"], found["branching_order"]) == (known.vein, known.branching_order)
     assert found["areole"] == (None if known.areole < 0 else known.areole)
 
 

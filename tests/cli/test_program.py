@@ -247,3 +247,17 @@ def test_a_copied_config_is_the_bundled_one(tmp_path, monkeypatch, capsys):
     assert main(["configs", "--copy", "poplar-leaf"]) == 2
     assert "exists" in capsys.readouterr().err
     assert configs.EXAMPLES
+
+
+def test_a_copy_into_a_folder_that_takes_none_is_refused(tmp_path, monkeypatch, capsys):
+    def refuse(*arguments, **options):
+        raise PermissionError(13, "Permission denied")
+
+    # whoever may write everywhere, as in containers, is not stopped by the folder itself
+    monkeypatch.setattr("pathlib.Path.write_bytes", refuse)
+    assert main(["configs", "--copy", "poplar-leaf", "--to", str(tmp_path)]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line == (
+        f"{tmp_path / 'poplar-leaf.toml'}: cannot be written: Permission denied;"
+        " --to names another folder"
+    )

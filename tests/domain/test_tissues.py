@@ -255,3 +255,19 @@ def test_forty_thousand_cells_take_well_under_a_second(make):
     tissue = make(200, 200)
     assert time.process_time() - start < 1.0
     assert tissue.n_cells == 40_000
+
+
+@pytest.mark.parametrize("kind", MASKS)
+@pytest.mark.parametrize("length", [0.3, 1.0])
+def test_a_blade_smaller_than_two_cells_is_refused(kind, length):
+    blade = BladeParameters(shape="ovate", length=length).blade()
+    with pytest.raises(OutlineError, match=r"has room for [01] cells? of width 1 D; at least 2"):
+        MASKS[kind](blade, 1)
+
+
+@pytest.mark.parametrize("kind", MASKS)
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_vein_may_begin_at_the_very_base_of_a_blade(kind, shape):
+    tissue = MASKS[kind](BladeParameters(shape=shape, length=14.0).blade(), 1)
+    assert not tissue.are_outside([(0.0, 0.0)]).any()
+    assert tissue.are_outside([(0.0, -9.0)]).all()

@@ -59,7 +59,7 @@ def test_nodes_and_segments_have_their_place_and_width_at_the_step(timeline, tmp
     # pandas before 3 reads numbers to the last digit but one
     np.testing.assert_allclose(nodes[list(found.axes)], found.positions, rtol=1e-14)
     np.testing.assert_allclose(nodes["radius"], found.radii, rtol=1e-14)
-    for name in ("order", "width", "length"):
+    for name in ("order", "branching_order", "width", "length"):
         np.testing.assert_allclose(segments[name], getattr(found, f"{name}s"), rtol=1e-14)
     # what refinement has replaced is there, without a place
     replaced = tables["nodes"].drop(found.ids)

@@ -83,3 +83,19 @@ def test_what_cannot_be_cut_is_refused(leaf, tmp_path, capsys):
     assert main(["export", str(stem), "-o", str(tmp_path / "s.ply"), "--cell", "2"]) == 2
     assert "--cell is for a tissue" in capsys.readouterr().err
     assert not (tmp_path / "tissue.toml").exists()
+
+
+def test_a_tissue_without_live_sources_warns_on_export_and_as_it_runs(leaf, tmp_path, capsys):
+    file, output = tmp_path / "tissue.toml", tmp_path / "tissue.h5"
+    with Timeline(leaf) as timeline:
+        n_live = [timeline.frame(k).sources.n_sources for k in range(timeline.last_step + 1)]
+    empty = n_live.index(0)
+    assert main(["export", str(leaf), "-o", str(file), "--step", str(empty)]) == 0
+    said = capsys.readouterr().err
+    assert said.startswith(f"warning: {file}: no live source of that step")
+    assert "--step" in said
+    assert main(["run", str(file), "-o", str(output), "--no-figure"]) == 0
+    assert "warning: placement.points is empty: no source appears" in capsys.readouterr().err
+    alive = int(np.argmax(n_live))
+    assert main(["export", str(leaf), "-o", str(file), "--step", str(alive), "--force"]) == 0
+    assert "warning" not in capsys.readouterr().err

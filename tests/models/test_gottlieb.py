@@ -6,12 +6,14 @@ from reference.pasts import assert_goes_on_from, whole_run
 
 from vasc.analysis.topology import count_components, count_cycles
 from vasc.config import load_text
+from vasc.domain import Blade
 from vasc.errors import ConfigError
 from vasc.events import EventKind
 from vasc.experiment import resume, run, verify
 from vasc.kernels.contacts import segment_contacts
 from vasc.kernels.crossings import is_crossed
 from vasc.models import GottliebParameters
+from vasc.models.gottlieb import stays_within
 from vasc.network import Origin
 from vasc.timeline import Timeline, validate
 
@@ -136,8 +138,14 @@ def test_a_recorded_run_goes_on_and_repeats(tmp_path):
 @pytest.mark.parametrize(
     ("line", "message"),
     [
-        ("longest = 9.0", "longest is 9; it must be at most space (8)"),
-        ("doublings = 12\nspace = 0.5\nlongest = 0.5", "the blade would be 4.92e+04 D long"),
+        ("longest = 9.0", "longest = 9: must be at most space, 8 D"),
+        (
+            "doublings = 12\nspace = 0.5\nlongest = 0.5",
+            "domain.length = 12 and doublings = 12: the blade would be 4.92e+04 D long",
+        ),
+        ("longest = 1e-300", "times longest = 1e-300, more than memory can hold; at most 20000"),
+        ("length = 1e300", "domain.length = 1e+300 and doublings = 3: the blade would be"),
+        ("length = 1e-300", "domain.length = 1e-300: must be at least 1e-06 D"),
         ("doublings = 13", "doublings"),
         ("reach = -1.0", "reach"),
     ],
@@ -145,9 +153,40 @@ def test_a_recorded_run_goes_on_and_repeats(tmp_path):
 def test_what_cannot_be_is_refused(line, message):
     keys = {one.split(" = ")[0] for one in line.split("\n")}
     kept = [one for one in CONFIG.split("\n") if one.split(" = ")[0] not in keys]
+    at = len(kept) - 1 if line.startswith("length") else 1
     with pytest.raises(ConfigError) as caught:
-        load_text("\n".join([kept[0], *line.split("\n"), *kept[1:]]))
+        load_text("\n".join([*kept[:at], *line.split("\n"), *kept[at:]]))
     assert message in str(caught.value)
+
+
+def test_a_space_that_no_blade_has_is_refused_by_its_key():
+    with pytest.raises(ConfigError, match=r"space = 1e\+06: no source would ever appear"):
+        gottlieb(space=1e6).model()
+
+
+@pytest.mark.parametrize("shape", ["ovate", "cordate"])
+def test_no_vein_leaves_the_blade(shape):
+    # a tip that is drawn out has a bay on each side, a heart one at its base
+    domain = {"shape": shape, "length": 12.0}
+    states, _ = whole_run(gottlieb(domain=domain, reach=14.0))
+    last = states[-1]
+    network, blade = last.network, last.blade
+    assert (network.origins == Origin.SOURCE).sum() > 10
+    for pair in network.segments:
+        way = network.positions[pair]
+        points = way[0] + np.linspace(0.0, 1.0, 21)[:, None] * (way[1] - way[0])
+        beyond = ~blade.contains(points)
+        assert (blade.margin_distance(points)[beyond] < 1e-6).all()
+
+
+def test_a_way_across_a_bay_leaves_the_blade():
+    corners = [(-4.0, 0.0), (4.0, 0.0), (4.0, 8.0), (0.0, 2.0), (-4.0, 8.0)]
+    blade = Blade.from_rings([corners])
+    assert not stays_within(blade, np.array([[-3.5, 7.0], [3.5, 7.0]]))
+    assert stays_within(blade, np.array([[-3.0, 1.0], [3.0, 1.0]]))
+    # along the margin, and from it
+    assert stays_within(blade, np.array([[-4.0, 0.0], [-4.0, 8.0]]))
+    assert stays_within(blade, np.array([[4.0, 8.0], [2.0, 5.0]]))
 
 
 def test_a_way_that_runs_along_a_vein_is_crossed():

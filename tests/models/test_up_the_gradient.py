@@ -9,11 +9,18 @@ from hypothesis import strategies as st
 from reference.pasts import assert_goes_on_from, whole_run
 from reference.transport import euler, polarized
 
+from vasc.config import load, parse_override
 from vasc.domain.tilings import hexagonal, rectangular
-from vasc.errors import RunError
+from vasc.errors import ConfigError, RunError
 from vasc.kernels import up_the_gradient as kernel
 from vasc.models import UpTheGradientParameters
-from vasc.models.up_the_gradient import HEXAGON, AuxinRates, StartParameters, UpTheGradient
+from vasc.models.up_the_gradient import (
+    HEXAGON,
+    AuxinRates,
+    StartParameters,
+    UpTheGradient,
+    check_time_step,
+)
 from vasc.simulation import simulate
 from vasc.streams import Streams
 
@@ -254,3 +261,51 @@ def test_every_step_is_a_place_to_go_on_from(step):
     states, words = whole_run(parameters)
     assert states[-1].time == pytest.approx(100.0)
     assert_goes_on_from(parameters, states, words, step)
+
+
+@pytest.mark.parametrize(
+    ("table", "key", "value", "allowed"),
+    [
+        ("auxin", "production", "1e30", "of at most 1"),
+        ("auxin", "diffusion", "1e30", "of at most 10000"),
+        ("auxin", "transport", "1e300", "of at most 100000"),
+        ("auxin", "decay", "1e9", "of at least 1e-06 and of at most 10"),
+        ("auxin", "carriers", "1e30", "of at most 100"),
+        ("start", "concentration", "1e30", "of at most 1000"),
+        ("times", "time_step", "1e-300", "of at least 1e-06 and of at most 1000"),
+    ],
+)
+def test_absurd_values_are_refused_by_their_own_key(table, key, value, allowed):
+    with pytest.raises(ConfigError) as caught:
+        load("up-the-gradient", [parse_override(f"{table}.{key}={value}")])
+    (line,) = caught.value.problems
+    assert f"{table}.{key} = " in line
+    assert allowed in line
+
+
+@pytest.mark.parametrize(
+    ("change", "blamed"),
+    [
+        ("auxin.diffusion=1000.0", r"auxin\.diffusion = 1000: a cell may lose"),
+        ("auxin.transport=50000.0", r"auxin\.transport = 50000 and auxin\.carriers = 0\.1"),
+        ("auxin.decay=10.0", r"auxin\.decay = 10: .*must be at most 0\.0\d+ s"),
+        ("times.time_step=900.0", r"times\.time_step, 900 s, must be at most"),
+    ],
+)
+def test_the_rate_that_needs_shorter_steps_is_named(change, blamed):
+    overrides = [parse_override("times.time_step=0.5"), parse_override(change)]
+    experiment = load("up-the-gradient", overrides)
+    with pytest.raises(ConfigError, match=blamed):
+        experiment.model()
+
+
+def test_the_longest_step_that_is_allowed_keeps_concentrations_in_their_range():
+    tissue = hexagonal(6, 5)
+    auxin = AuxinRates(**PATTERNED)
+    longest = 1000.0
+    with pytest.raises(ConfigError) as caught:
+        check_time_step(tissue, HEXAGON, auxin, longest)
+    longest = 0.99 * float(str(caught.value).partition("at most ")[2].split(" ")[0])
+    check_time_step(tissue, HEXAGON, auxin, longest)
+    state = last_of(model_on(tissue, PATTERNED, {"noise": 0.9}, longest, 50))
+    assert state.fields.concentration.min() > 0.0

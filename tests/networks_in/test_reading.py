@@ -2,6 +2,7 @@
 
 import gzip
 import json
+import re
 
 import networkx as nx
 import numpy as np
@@ -317,3 +318,33 @@ class TestFiles:
         path.write_bytes(content)
         with pytest.raises(NetworkError):
             read_network(path)
+
+
+NEFI_OLD = """#nefi2.py
+# GMT Tue Mar 15 10:20:30 2016
+#
+(12, 40)|2
+(12, 95)|{'length': 56.41421356237309, 'pixels': 55, 'width': 4.25, 'width_var': 0.31}
+(60, 41)|{'pixels': 48, 'width': 2.0, 'length': 48.41421356237309, 'width_var': 0.0}
+(12, 95)|1
+(60, 41)|{'width_var': 0.12, 'width': 1.5, 'length': 75.0, 'pixels': 70}
+(60, 41)|0
+"""
+
+
+def test_the_text_of_nefi_from_old_and_new_libraries(tmp_path):
+    numbers = re.compile(r"(?<=: )\d+\.\d+|(?<=[( ])\d+(?=[,)])")
+    new = "".join(
+        line if line.startswith("#") else numbers.sub(r"np.float64(\g<0>)", line)
+        for line in NEFI_OLD.splitlines(keepends=True)
+    )
+    assert "(np.float64(12), np.float64(40))|2" in new
+    leaves = []
+    for name, text in (("old.txt", NEFI_OLD), ("new.txt", new)):
+        (tmp_path / name).write_text(text)
+        leaves.append(read_network(tmp_path / name))
+    for leaf in leaves:
+        assert leaf.network.positions.tolist() == [[40, -12], [95, -12], [41, -60]]
+        assert leaf.network.segments.tolist() == [[0, 1], [0, 2], [1, 2]]
+        assert leaf.widths.tolist() == [4.25, 2.0, 1.5]
+        assert leaf.lengths.tolist() == [56.41421356237309, 48.41421356237309, 75.0]

@@ -98,3 +98,16 @@ def test_births_up_to_a_step_and_by_other_orders(timeline):
     (dots,) = (line for line in above.lines if line.get_marker() == "o")
     assert dots.get_xdata().max() <= 100
     assert above.get_legend().get_title().get_text() == "vein order (veins)"
+
+
+def test_numbers_of_small_trees_do_not_cover_each_other():
+    # one loop in 200 parts, and the others whole
+    n_loops, n_parts = MOST_TREES, 200
+    parents = np.array([-1] * n_loops + [0] * n_parts, dtype=np.int32)
+    steps = np.arange(len(parents), dtype=np.int32)
+    splits = np.full(len(parents), -1, dtype=np.int32)
+    splits[0] = n_loops
+    shown = _shown(Genealogy(steps, parents, steps, splits, {}))
+    at = np.sort(shown.heights[shown.loops])
+    # a number is 5 pt high, and 6.25 inches are there for all
+    assert np.diff(at).min() / np.nanmax(shown.heights) * 6.25 * 72.0 > 5.0

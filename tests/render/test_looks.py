@@ -7,7 +7,7 @@ from reference.networks import network
 
 from vasc.analysis import WidthParameters
 from vasc.analysis.ancestry import descent
-from vasc.analysis.widths import pipes, radii
+from vasc.analysis.widths import radii, segment_radii
 from vasc.errors import VascError
 from vasc.render.looks import Paint, Scale, color_segments, fit_widths, gradient, width_classes
 from vasc.render.styles import COLOR_CHOICES, LeafStyle
@@ -25,7 +25,7 @@ NET = network(
 def colors(net, color):
     directions = descent(net)
     paint = Paint(color, LeafStyle(), last_step=9)
-    coloring = color_segments(net, paint, directions, pipes(net))
+    coloring = color_segments(net, paint, directions, 2.0 * segment_radii(net))
     return [coloring.palette[k] for k in coloring.classes], coloring.key
 
 
@@ -98,11 +98,20 @@ class TestColors:
             assert half == [whole[0], whole[1], whole[1], whole[2], whole[3]]
 
     def test_orders_beyond_the_last_colour_share_it(self):
-        # a perfect binary tree: a side vein on each side vein, nine deep
-        pairs = [(0, 1)] + [(k // 2, k) for k in range(2, 2**9)]
-        found, key = colors(network(np.zeros((2**9, 2)), pairs), "order")
-        assert key.labels[-1] == "7+"
-        assert set(found) <= set(key.colors)
+        # a stair of nine veins, each off the middle of the last and a third as wide
+        points, pairs, widths = [(0.0, 0.0)], [], []
+        for depth in range(9):
+            base = np.array(points[-1])
+            along = np.array([(0.0, 1.0), (1.0, 0.0)][depth % 2])
+            start, end = len(points) - 1, len(points)
+            points += [tuple(base + 2.0 * along), tuple(base + along)]
+            pairs += [(start, end + 1), (end + 1, end)]
+            widths += [3.0**-depth] * 2
+        net = network(np.array(points), pairs)
+        found = color_segments(net, Paint("order", LeafStyle(), 9), descent(net), np.array(widths))
+        assert found.key.title == "vein order"
+        assert found.key.labels[-1] == "7+"
+        assert found.classes.max() == 6
 
 
 def test_gradient_passes_through_its_colours():

@@ -7,12 +7,15 @@ import pytest
 from PIL import Image
 from reference.networks import network, sources
 
+from vasc.config import load
 from vasc.domain.tilings import hexagonal, rectangular
 from vasc.errors import VascError
+from vasc.experiment import run
 from vasc.fields import Fields, Role
 from vasc.render import TISSUE_COLOR_CHOICES, animate, draw_tissue, render, save, scale_of
 from vasc.render.cells import arrows, bars, leaves_from, wall_ends
 from vasc.render.tissue_style import shades_of
+from vasc.timeline import Timeline
 
 
 @dataclass(frozen=True)
@@ -270,3 +273,19 @@ class TestFiles:
             first = np.asarray(pictures.convert("RGB")).astype(int)
         assert is_like(first, "#d3122e", 12).sum() > 20
         assert is_like(first, "#1b9e3e", 12).sum() > 20
+
+
+def test_roles_are_those_after_the_last_strand_became_vein(tmp_path):
+    output = tmp_path / "run.h5"
+    run(load("mitchison-two-sinks-left"), output)
+    with Timeline(output) as timeline:
+        frame = timeline.frame()
+        assert (frame.fields.roles == Role.VEIN).sum() == 2
+        shown = shades_of(frame, "role")
+        cells = frame.tissue.nearest_cells(frame.network.positions)
+        assert len(cells) > 10
+        assert (shown[cells] == Role.VEIN).all()
+        assert (shown == Role.VEIN).sum() == len(cells)
+        assert not (shown == Role.SOURCE).any()
+        # in the step before, the source was one
+        assert (shades_of(timeline.frame(timeline.last_step - 1), "role") == Role.SOURCE).sum() == 1

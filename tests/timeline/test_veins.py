@@ -45,7 +45,7 @@ def test_orders_are_those_of_going_node_by_node(timeline):
 
 def test_births_are_what_the_frames_say(timeline):
     table = timeline.lineage.births()
-    names = ("step", "vein", "order", "origin", "height", "nodes")
+    names = ("step", "vein", "branching_order", "origin", "height", "nodes")
     found = list(zip(*(table[name].tolist() for name in names), strict=True))
     for mine, expected in zip(found, lineages.births(timeline), strict=True):
         assert mine[:4] == expected[:4]
@@ -58,16 +58,29 @@ def test_orders_may_come_from_elsewhere(timeline):
     n_nodes = timeline.n_rows("nodes")
     table = timeline.lineage.births(np.full(n_nodes, 7))
     assert set(table["order"].tolist()) == {7}
-    with pytest.raises(TimelineError, match=rf"expected shape \({n_nodes},\), one a node"):
-        timeline.lineage.births(np.zeros(3))
+    for bad in (np.zeros(3, dtype=int), np.zeros(n_nodes)):
+        with pytest.raises(TimelineError, match=rf"integers of shape \({n_nodes},\), one a node"):
+            timeline.lineage.births(bad)
+
+
+def test_a_vein_has_the_lowest_order_that_is_known_of_its_nodes(timeline):
+    firsts = timeline.lineage.veins.firsts
+    orders = np.arange(len(firsts)) % 3 - 1
+    table = timeline.lineage.births(orders)
+    assert {-1, 0, 1} >= set(table["order"].tolist())
+    for vein, order in zip(table["vein"].tolist(), table["order"].tolist(), strict=True):
+        known = orders[(firsts == vein) & (orders >= 0)]
+        assert order == (known.min() if len(known) else -1)
 
 
 def test_births_by_order_count_every_vein_once(timeline):
     births = timeline.lineage.births()
     table = timeline.lineage.table("births_by_order")
     assert table["veins"].sum() == len(births["vein"])
-    for order, first, median in zip(table["order"], table["first"], table["median"], strict=True):
-        steps = births["step"][births["order"] == order]
+    for order, first, median in zip(
+        table["branching_order"], table["first"], table["median"], strict=True
+    ):
+        steps = births["step"][births["branching_order"] == order]
         assert (first, median) == (min(steps), np.median(steps))
 
 

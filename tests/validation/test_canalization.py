@@ -26,7 +26,7 @@ from vasc.validation.canalization.geometric import (
     relative_neighbors,
     spanning_tree,
 )
-from vasc.validation.canalization.hit_rates import hit_rates, outcomes, summary
+from vasc.validation.canalization.hit_rates import EXACT, hit_rates, outcomes, summary
 from vasc.validation.canalization.leaves import leaf
 from vasc.validation.canalization.protocols import PROTOCOLS
 from vasc.validation.canalization.rates import agreeing_rates, same_rate, wilson
@@ -81,7 +81,8 @@ def test_the_closed_rule_names_veins_on_both_sides():
 def test_wilson_intervals_hold_known_ones():
     assert wilson(57, 60) == pytest.approx((0.863, 0.983), abs=0.001)
     assert wilson(0, 10) == pytest.approx((0.0, 0.278), abs=0.001)
-    assert wilson(10, 10)[1] == pytest.approx(1.0)
+    assert wilson(60, 60)[1] == wilson(10, 10)[1] == 1.0
+    assert wilson(0, 60)[0] == 0.0
     assert wilson(0, 0) == (0.0, 1.0)
 
 
@@ -269,7 +270,12 @@ def test_the_suite_is_told_and_written(tmp_path, monkeypatch, capsys):
     shown = capsys.readouterr().out
     assert "open rule" in shown
     assert "rectangular P2  facilitated" in shown
+    assert "0.707 on squares and 0.866 on hexagons" in shown
     written = json.loads(path.read_text())
+    (first, _) = written["tables"]["hit_rates"]
+    assert (first["reference_hits"], first["reference_n"]) == (58, 60)
+    assert (first["reference_low"], first["reference_high"]) == pytest.approx(wilson(58, 60))
+    assert first["p"] == same_rate(first["hits"], 5, 58, 60)
     assert written["n"] == 5
     assert {"name", "value", "low", "high", "source", "pass"} == set(written["checks"][0])
     assert main(["validate", "canalization", "-o", str(path)]) == 2
@@ -280,9 +286,44 @@ def test_the_suite_is_told_and_written(tmp_path, monkeypatch, capsys):
     assert "only the suite canalization" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("n", [5, 20, 200])
+def test_the_suite_counts_the_parts_that_it_tells_of(n, monkeypatch):
+    told = []
+    monkeypatch.setattr(suite, "_of_rates", lambda rows: iter(()))
+    monkeypatch.setattr(suite, "_of_trees", lambda tables: iter(()))
+    monkeypatch.setattr(suite, "_of_figure", lambda rows: iter(()))
+    monkeypatch.setattr(suite, "against_reference", lambda row: {})
+
+    def idle(count):
+        def parts(*arguments, progress=None, **options):
+            tell = arguments[0] if progress is None else progress
+            for number in range(count):
+                tell(f"part {number}")
+            return []
+
+        return parts
+
+    for name, count in (
+        ("figure_rows", len(TISSUES) * len(FIGURE_PROTOCOLS)),
+        ("hit_rates", len(suite.rate_cases(n))),
+        ("sequential", suite.n_leaves(n)),
+        ("areoles", 2 * len(AREOLE_PROTOCOLS)),
+        ("simultaneous", suite.n_sets(n)),
+        ("background_scan", len(TISSUES) * 3 * 4),
+        ("_of_threshold", 1),
+        ("_of_scheme", 2),
+    ):
+        monkeypatch.setattr(suite, name, idle(count))
+    suite.validate_canalization(told.append, n)
+    assert told[0].startswith(f"1 of {len(told)}: ")
+    assert told[-1].startswith(f"{len(told)} of {len(told)}: ")
+
+
 @pytest.mark.slow
 def test_the_suite_passes():
-    found = suite.validate_canalization()
+    told = []
+    found = suite.validate_canalization(told.append)
+    assert told[-1].startswith(f"{len(told)} of {len(told)}: ")
     assert [check["name"] for check in found["checks"] if not check["pass"]] == []
     assert len(found["checks"]) > 60
     json.dumps(found, allow_nan=False)
@@ -293,12 +334,16 @@ def test_the_suite_passes():
 def test_facilitated_diffusion_reaches_the_nearest_of_clearly_apart_veins(tissue):
     cases = [(tissue, scenario, "facilitated") for scenario in SCENARIOS]
     rows = hit_rates(cases, range(5000, 5100), 1.0)
+    # below sqrt(1/2) on squares, sqrt(3/4) on hexagons all: the nearest is so over cells, too
     hits, n = (sum(row[key] for row in rows) for key in ("hit_exacts", "hit_exact_n"))
     assert n >= 200
     assert hits == n
-    # square cells make diagonal ways long: 5 of 571 were missed below 0.8
+    # above, square cells make diagonal ways long: 5 of 571 were missed below 0.8
     hits, n = (sum(row[key] for row in rows) for key in ("hit_clears", "hit_clear_n"))
-    assert hits >= 0.98 * n
+    assert n >= 200
+    assert hits >= suite.CLEAR_LEAST * n
+    missed = [row["miss_q_min"] for row in rows if row["miss_q_min"] is not None]
+    assert all(q >= EXACT[tissue] for q in missed)
 
 
 @pytest.mark.slow

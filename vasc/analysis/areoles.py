@@ -10,6 +10,9 @@ from vasc.arrays import Floats
 from vasc.faces import Drawing, FaceWalks, face_walks
 from vasc.network import VeinNetwork
 
+LEAST_AREA = 1e-12
+"""Of an areole, over the square of the longer side of the network: below is rounding."""
+
 
 @dataclass(frozen=True)
 class Areoles:
@@ -26,12 +29,15 @@ class Areoles:
         Ratio of the axes of the ellipse with the same second moments, from 1.
     corners : ndarray of shape (k,), int64
         Junctions around each, of the network without free-ending trees.
+    n_flat : int
+        Faces of the drawing that enclose nothing but rounding, by ``LEAST_AREA``: no areoles.
     """
 
     areas: Floats
     perimeters: Floats
     elongations: Floats
     corners: NDArray[np.int64]
+    n_flat: int = 0
 
     @property
     def n_areoles(self) -> int:
@@ -135,7 +141,7 @@ def areoles_of(looped: LoopedVeins | None, drawing: Drawing) -> Areoles:
     Returns
     -------
     Areoles
-        In the order of the faces, without the outsides.
+        In the order of the faces, without the outsides and those without area.
     """
     if looped is None:
         return Areoles(np.zeros(0), np.zeros(0), np.zeros(0), np.zeros(0, dtype=np.int64))
@@ -150,10 +156,13 @@ def areoles_of(looped: LoopedVeins | None, drawing: Drawing) -> Areoles:
     lengths = np.where(looped.is_border, np.sqrt((vectors**2).sum(axis=1)), 0.0)
     perimeters = np.bincount(faces, lengths, minlength=n_faces).astype(np.float64)
     corners = np.bincount(walks.faces[looped.degrees[walks.starts] >= 3], minlength=n_faces)
-    is_inside = ~walks.is_outside
+    side = float(np.ptp(drawing.points, axis=0).max())
+    is_flat = ~walks.is_outside & (areas < LEAST_AREA * side**2)
+    is_inside = ~walks.is_outside & ~is_flat
     of_faces: list[Floats] = [areas, perimeters, _elongations(drawing, walks, faces, areas)]
     measured = [values[is_inside] for values in of_faces]
-    return Areoles(measured[0], measured[1], measured[2], corners[is_inside])
+    flat = int(is_flat.sum())
+    return Areoles(measured[0], measured[1], measured[2], corners[is_inside], flat)
 
 
 def _elongations(

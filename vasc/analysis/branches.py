@@ -18,7 +18,8 @@ def branch_orders(
     At each node the segment that carries most pipes (of equals, the oldest)
     continues the vein; every other one begins a vein of the next order. This is
     the centrifugal count of branching, made from the drawing alone. It is not the
-    order of leaf architecture, which also weighs widths at the origin and courses.
+    order of leaf architecture, which also weighs widths at the origin and courses: for that see
+    :func:`vasc.analysis.segment_orders`.
 
     Parameters
     ----------

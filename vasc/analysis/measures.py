@@ -66,6 +66,7 @@ class Measured:
         elongations = areoles.elongations
         return {
             "areoles": areoles.n_areoles,
+            "flat_areoles": areoles.n_flat,
             "areole_area_mean": areoles.mean_area,
             "areole_area_cv": areoles.area_variation,
             "areole_circularity_median": median(areoles.circularities),

@@ -1,5 +1,6 @@
 """``vasc export``: a recorded run for other programs, or a tissue cut from it."""
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -60,6 +61,7 @@ def export(
         check_picture(output, force=force)
         width = exports.CELL if cell is None else cell
         file = exports.export_tissue(path, output, step, cell=width)
+        warn_without_sources(file)
     else:
         check_folder(output)
         file = exports.export(
@@ -69,3 +71,17 @@ def export(
         print_json({"files": [str(file)]})
     else:
         typer.echo(f"written: {file}")
+
+
+def warn_without_sources(config: Path) -> None:
+    """Warn of a tissue in which no canal will form."""
+    import tomllib
+
+    from vasc.cli.failures import complain
+
+    if not tomllib.loads(config.read_text(encoding="utf-8"))["placement"]["points"]:
+        complain(
+            f"warning: {config}: no live source of that step has a ground cell of its own, so"
+            " that no canal will form; choose a step at which sources live (--step), or give"
+            " placement.points"
+        )

@@ -142,7 +142,7 @@ def vein_loop(timeline: "Timeline", node: int) -> dict[str, Any]:
     return {
         "node": node,
         "vein": found.vein,
-        "order": found.order,
+        "branching_order": found.branching_order,
         "areole": _known(found.areole),
         "first_order_loop": _known(found.first_order),
         "ancestors": list(found.ancestors),

@@ -18,9 +18,17 @@ NEVER_NULL = {"time", "height", "survival", "standard_error", "low", "high", "me
 
 
 def asked_for(timeline: "Timeline", name: str, source: int | None) -> "dict[str, NDArray]":
-    """Give a table of lineage by its name; of competitors, those of a source."""
+    """Give a table of lineage by its name; births with vein orders at the last step."""
     if name == "competitors":
         return timeline.lineage.competitors(source)
+    if name == "births":
+        from vasc.analysis.segment_orders import run_node_orders
+        from vasc.analysis.widths import WidthParameters
+
+        asked = WidthParameters.model_validate(timeline.config.get("widths") or {})
+        n_nodes = timeline.n_rows("nodes")
+        orders = run_node_orders(timeline.frame, timeline.last_step, asked, n_nodes)
+        return timeline.lineage.births(orders)
     return timeline.lineage.table(name)
 
 

@@ -73,19 +73,45 @@ def described(timeline: "Timeline") -> dict[str, Any]:
     }
 
 
-def _size_of_tissue(timeline: "Timeline") -> dict[str, int]:
-    """Give the number of cells and walls; nothing in a run without cells."""
+def _size_of_tissue(timeline: "Timeline") -> dict[str, Any]:
+    """Give cells, walls and auxin with its units; nothing in a run without cells."""
+    from vasc.analysis.tissue_units import time_unit, unit_of
+
     if timeline.tissue is None:
         return {}
-    return {"cells": timeline.tissue.n_cells, "walls": timeline.tissue.n_walls}
+    auxin = timeline.fields(-1).concentration if timeline.n_frames else None
+    return {
+        "cells": timeline.tissue.n_cells,
+        "walls": timeline.tissue.n_walls,
+        "auxin": None if auxin is None else [float(auxin.min()), float(auxin.max())],
+        "auxin_unit": unit_of(timeline.config, "concentration"),
+        "time_unit": time_unit(timeline.config),
+    }
+
+
+def in_words_of_the_model(found: dict[str, Any]) -> dict[str, Any]:
+    """Give what people are shown of a run: units, and nothing that its model does not have."""
+    if "cells" not in found:
+        return found
+    lacking = {
+        "up-the-gradient": {"growth", "nodes", "segments", "sources_placed", "sources_active"},
+        "constant-production": {"growth", "sources_placed", "sources_active"},
+    }.get(found["model"], {"growth"})
+    found = {key: value for key, value in found.items() if key not in lacking}
+    time, auxin = found.pop("time_unit"), found.pop("auxin_unit")
+    if found["time"] is not None:
+        found["time"] = f"{found['time']:.6g} {time}"
+    if (span := found.pop("auxin")) is not None:
+        found["auxin"] = f"{span[0]:.4g} to {span[1]:.4g} {auxin}".strip()
+    return found
 
 
 def _print(timeline: "Timeline", path: Path) -> None:
     """Write the same for people."""
     from vasc.cli.printing import file_size, print_pairs, printable
-    from vasc.cli.summary import REASONS
+    from vasc.cli.summary import reason_of
 
-    found = described(timeline)
+    found = in_words_of_the_model(described(timeline))
     config, events = found.pop("config"), found.pop("events")
     reason = found.pop("stop_reason")
     typer.echo(f"{path}: {printable(str(config.get('title') or 'untitled'))}")
@@ -95,7 +121,7 @@ def _print(timeline: "Timeline", path: Path) -> None:
         typer.echo(f"equations: {sentence}")
     outcome = str(timeline.provenance[-1].get("outcome", "")) if timeline.provenance else ""
     if reason:
-        ended = REASONS.get(reason, reason)
+        ended = reason_of(timeline.model, reason)
     elif outcome.startswith("failed"):
         ended = f"with an error, see sessions; `vasc resume {path}` would meet it again"
     else:

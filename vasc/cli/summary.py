@@ -11,7 +11,7 @@ from vasc.cli.interrupts import Interrupts
 from vasc.cli.printing import file_size, print_json, print_pairs
 
 if TYPE_CHECKING:
-    from vasc.experiment import Summary
+    from vasc.analysis.summaries import Summary, TissueSummary
 
 REASONS = {
     "no_sources": "growth and placement are over, no source is left",
@@ -20,6 +20,11 @@ REASONS = {
     "step_limit": "the last step of the config was reached",
     "at_rest": "no source is to come, and the tissue is at rest",
 }
+AT_REST = {
+    "up-the-gradient": "the tissue is at rest: auxin hardly changes any more",
+    "constant-production": "no wall of a vein is steep enough for another vein cell",
+}
+"""What rest is in models without sources."""
 
 
 def print_summary(summary: "Summary", files: list[Path], *, as_json: bool) -> None:
@@ -30,10 +35,7 @@ def print_summary(summary: "Summary", files: list[Path], *, as_json: bool) -> No
     print_pairs(
         {
             "steps": summary.steps,
-            **_cells(summary),
-            "nodes": summary.nodes,
-            "segments": summary.segments,
-            **_sources(summary),
+            **(_leaf(summary) if summary.tissue is None else _tissue(summary, summary.tissue)),
             "wall time": f"{summary.wall_seconds:.2f} s",
             "ended": reason_text(summary),
             "written": ", ".join(f"{file} ({file_size(file.stat().st_size)})" for file in files),
@@ -41,32 +43,40 @@ def print_summary(summary: "Summary", files: list[Path], *, as_json: bool) -> No
     )
 
 
-def _cells(summary: "Summary") -> dict[str, Any]:
-    """Give the time and the size of a tissue; nothing in a run without cells."""
-    if summary.tissue is None:
-        return {}
-    cells = f"{summary.tissue.cells:,}, with {summary.tissue.walls:,} walls between them"
-    # in the unit of the model: turnover times of a wall, seconds, or steps
-    return {"time": f"{summary.time:.6g}", "cells": cells}
-
-
-def _sources(summary: "Summary") -> dict[str, Any]:
-    """Give what became of sources: those of a leaf are drained, primordia stay."""
-    if summary.tissue is not None:
-        connected = f"{summary.tissue.connected:,} connected to a vein"
-        return {
-            "sources": f"{summary.sources_placed:,} placed, {connected}",
-            "rounds unsettled": summary.tissue.unsettled,
-            "vortices": summary.tissue.vortices,
-        }
-    joins = f"{summary.joins:,}, of which {summary.loops:,} closed a loop"
+def _leaf(summary: "Summary") -> dict[str, Any]:
+    """Give the veins of a leaf or stem, and what became of sources: primordia stay."""
+    veins = {"nodes": summary.nodes, "segments": summary.segments}
     if summary.nodes_outside is None:
-        return {"primordia": summary.sources_placed, "joins": joins}
-    return {
+        return veins | {"primordia": summary.sources_placed, "joins": _joins(summary)}
+    return veins | {
         "sources": f"{summary.sources_placed:,} placed, {summary.sources_left:,} left",
-        "joins": joins,
+        "joins": _joins(summary),
         "stalls resolved": summary.stalls_resolved,
         "nodes outside the blade": summary.nodes_outside,
+    }
+
+
+def _joins(summary: "Summary") -> str:
+    """Say how many veins joined."""
+    return f"{summary.joins:,}, of which {summary.loops:,} closed a loop"
+
+
+def _tissue(summary: "Summary", tissue: "TissueSummary") -> dict[str, Any]:
+    """Give what came of cells, in the words of their model."""
+    # in the unit of the model: turnover times of a wall, seconds, or steps
+    found: dict[str, Any] = {"time": f"{summary.time:.6g} {tissue.time_unit}"}
+    found["cells"] = f"{tissue.cells:,}, with {tissue.walls:,} walls between them"
+    span = f"{tissue.concentration_least:.4g} to {tissue.concentration_most:.4g}"
+    found["auxin"] = f"{span} {tissue.concentration_unit}".strip()
+    if tissue.model == "up-the-gradient":
+        return found
+    found |= {"vein cells": summary.nodes, "segments": summary.segments}
+    if tissue.model == "constant-production":
+        return found | {"joins": _joins(summary)}
+    return found | {
+        "sources": f"{summary.sources_placed:,} placed, {tissue.connected:,} connected to a vein",
+        "rounds unsettled": tissue.unsettled,
+        "vortices": tissue.vortices,
     }
 
 
@@ -85,9 +95,18 @@ def reason_text(summary: "Summary") -> str:
         return f"not finished; `vasc resume {summary.output}` goes on"
     if summary.nodes_outside is None and summary.stop_reason == "no_sources":
         return "all primordia have appeared and are connected"
-    if summary.tissue is not None and summary.tissue.unsettled and summary.stop_reason == "at_rest":
+    if summary.tissue is None:
+        return REASONS.get(summary.stop_reason, summary.stop_reason)
+    if summary.tissue.unsettled and summary.stop_reason == "at_rest":
         return "no source is to come, and the tissue is at rest or had its time to settle"
-    return REASONS.get(summary.stop_reason, summary.stop_reason)
+    return reason_of(summary.tissue.model, summary.stop_reason)
+
+
+def reason_of(model: str, reason: str) -> str:
+    """Say why a run of a model ended, in its own words."""
+    if reason == "at_rest" and model in AT_REST:
+        return AT_REST[model]
+    return REASONS.get(reason, reason)
 
 
 def end_if_interrupted(summary: "Summary", interrupts: Interrupts) -> None:

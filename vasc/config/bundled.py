@@ -142,7 +142,7 @@ def copy_bundled(name: str, folder: Path) -> list[Path]:
     ConfigError
         If there is no experiment of that name.
     OutputError
-        If the folder does not exist or a file would be overwritten.
+        If the folder does not exist or cannot be written to, or a file would be overwritten.
     """
     known = sweep_paths() | bundled_paths()
     if name not in known:
@@ -161,8 +161,13 @@ def copy_bundled(name: str, folder: Path) -> list[Path]:
             raise OutputError(f"{target}: exists; move it away or copy into another folder")
     missing = {target: content for target, content in contents.items() if not target.exists()}
     for target, content in missing.items():
-        target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_bytes(content)
+        try:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_bytes(content)
+        except OSError as error:
+            raise OutputError(
+                f"{target}: cannot be written: {error.strerror or error}; --to names another folder"
+            ) from error
     return list(missing)
 
 

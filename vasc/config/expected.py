@@ -125,8 +125,8 @@ def refuse_what_no_machine_holds(size: ExpectedSize, output: Path, label: str) -
     if memory is not None and size.memory > MEMORY_SHARE * memory:
         raise ConfigError(
             f"{label}: the run may have {expected} and take {size.memory / 1e9:.3g} GB of memory,"
-            f" of which the machine has {memory / 1e9:.3g} GB; at most {MEMORY_SHARE:.0%} are allowed"
-            " (--large runs it all the same)"
+            f" of which the machine has {memory / 1e9:.3g} GB; at most {MEMORY_SHARE:.0%} are"
+            " allowed (--large runs it all the same)"
         )
     if size.file > free:
         raise OutputError(

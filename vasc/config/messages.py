@@ -16,7 +16,12 @@ FREE_TABLES = ("printed",)
 """Tables whose keys are the writer's own, so that none of them is a misplaced one."""
 
 
-def problems(error: "ValidationError", tables: dict[str, Any], root: Schema) -> dict[Path, str]:
+def problems(
+    error: "ValidationError",
+    tables: dict[str, Any],
+    root: Schema,
+    elsewhere: frozenset[str] = frozenset(),
+) -> dict[Path, str]:
     """Describe every problem that a validation found.
 
     Parameters
@@ -27,6 +32,8 @@ def problems(error: "ValidationError", tables: dict[str, Any], root: Schema) -> 
         The config as it was read.
     root : mapping
         JSON schema of the parameters.
+    elsewhere : frozenset of str
+        Keys that other models have at the top of a config.
 
     Returns
     -------
@@ -46,6 +53,8 @@ def problems(error: "ValidationError", tables: dict[str, Any], root: Schema) -> 
             off_branch[place.path] = _wrong_value(place, root)
             continue
         path, line = _described(detail, place, tables, root)
+        if detail["type"] == "extra_forbidden" and len(path) == 1 and path[0] in elsewhere:
+            line = _of_other_models(place, root) or line
         # several rules of one table may fail, and each is worth its line
         said = lines[path].split("\n") if path in lines else []
         lines[path] = "\n".join(said if line in said else [*said, line])
@@ -154,6 +163,19 @@ def _unknown_key(place: Place, tables: dict[str, Any], root: Schema) -> str:
     if owners := _owning_tables(place, key, root):
         return f"{line}; it belongs in [{'] or ['.join(owners)}]"
     return line + (nearest(key, known) or f"; allowed: {', '.join(known)}")
+
+
+def _of_other_models(place: Place, root: Schema) -> str:
+    """Describe a key of other models at the top; nothing where a table of this one has it."""
+    key = str(place.path[-1])
+    if _owning_tables(place, key, root):
+        return ""
+    kind = (place.table or {}).get("properties", {}).get("kind", {}).get("const")
+    what = f"the table [{key}]" if isinstance(place.value, dict) else key
+    return (
+        f"{assignment(place.path, place.value)}: unknown key; other models have {key}, kind"
+        f" {written(kind)} has none: remove {what}"
+    )
 
 
 def _keys_of(place: Place) -> list[str]:

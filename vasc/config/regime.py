@@ -84,6 +84,7 @@ def regime(parameters: "LeafVenation") -> Regime:
         transport: Any = getattr(parameters, "transport", None)
         if hasattr(transport, "gain"):
             _canalization(transport, getattr(parameters, "background", 0.0), found)
+            _sources(getattr(parameters, "placement", None), found)
         return found
     if growth.kind == "marginal":
         _marginal(growth.length_per_step / parameters.extension.segment_length, found)
@@ -200,6 +201,15 @@ def _canalization(transport: Any, background: float, found: Regime) -> None:
     found.sentences.append(
         f"q = {background:g} (what ground cells make together, over what a source makes)"
     )
+
+
+def _sources(placement: Any, found: Regime) -> None:
+    """Warn where no source is to come: nothing flows but what ground cells make."""
+    if getattr(placement, "points", None) == []:
+        found.warnings.append(
+            "placement.points is empty: no source appears, no canal forms, and the run ends when"
+            " the tissue is at rest, at once without background; give points"
+        )
 
 
 def _class_of(number: float, classes: tuple[tuple[float, str], ...]) -> str:

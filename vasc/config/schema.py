@@ -121,7 +121,9 @@ def parameters_from(tables: dict[str, Any], known: Models | None = None) -> Para
         text = as_json(tables)
         parameters = known[kind].model_validate_json(text, strict=True)
     except ValidationError as error:
-        found = {**problems(error, tables, json_schema_of(known[kind])), **found}
+        others = frozenset(key for model in known.values() for key in model.model_fields)
+        elsewhere = others - set(known[kind].model_fields)
+        found = {**problems(error, tables, json_schema_of(known[kind]), elsewhere), **found}
     if found:
         raise ConfigError(_in_order(found, tables))
     return parameters

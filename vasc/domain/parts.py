@@ -35,11 +35,23 @@ def sound_cells(rings: CellRings) -> CellRings:
         if is_kept.sum() > 1:
             raise OutlineError(_apart(rings, parts, np.where(is_kept, counts, 0)))
         rings = rings.only(is_kept[parts])
-    if rings.n_cells < 2:
-        raise OutlineError(
-            f"outline: has room for {rings.n_cells} cells of width 1 D; at least 2 are needed"
-        )
+    check_room(rings.n_cells)
     return rings
+
+
+def check_room(n_cells: int) -> None:
+    """Refuse an outline with room for less than two cells.
+
+    Raises
+    ------
+    OutlineError
+        If it has no room for two.
+    """
+    if n_cells < 2:
+        raise OutlineError(
+            f"outline: has room for {n_cells} cell{'' if n_cells == 1 else 's'} of width 1 D;"
+            " at least 2 are needed"
+        )
 
 
 def pinched_cells(rings: CellRings) -> NDArray[np.int64]:

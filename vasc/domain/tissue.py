@@ -13,6 +13,10 @@ from vasc.arrays import Floats, Ids, Points, as_points
 from vasc.domain.blade import Blade
 from vasc.domain.sides import FREE, CellRings, Sides, outline_sides, sides_of
 
+BESIDE = 1.0 + 1e-9
+"""A point off the tissue counts as on it up to that distance from a centre, in D: the base of a
+blade is as far from the hexagons around it as they are from each other, but for rounding."""
+
 
 @dataclass(frozen=True, eq=False)
 class Tissue:
@@ -111,7 +115,7 @@ class Tissue:
 
         xy = as_points(points, "points")
         near, _ = cKDTree(self.positions).query(xy)
-        return ~self.blade.contains(xy) & (near > 1.0)
+        return ~self.blade.contains(xy) & (near > BESIDE)
 
     def distances_from(self, cells: Ids | NDArray[np.bool_]) -> Floats:
         """Give the straight distance of each cell from the nearest of some, shape (n,).

@@ -27,8 +27,18 @@ STREAM = "tissue"
 class CellsParameters(Parameters):
     """A box of columns and rows of cells, or the cells in a blade."""
 
-    columns: int | None = quantity("Cells side by side.", default=None, ge=1, le=TISSUE_CELLS)
-    rows: int | None = quantity("Cells one above the other.", default=None, ge=1, le=TISSUE_CELLS)
+    columns: int | None = quantity(
+        "Cells side by side; at most 250000, also of columns times rows.",
+        default=None,
+        ge=1,
+        le=TISSUE_CELLS,
+    )
+    rows: int | None = quantity(
+        "Cells one above the other; at most 250000, as columns.",
+        default=None,
+        ge=1,
+        le=TISSUE_CELLS,
+    )
     blade: BladeParameters | None = quantity(
         "An outline instead of columns and rows; D is the width of a cell.", default=None
     )
@@ -136,7 +146,7 @@ class VoronoiCells(CellsParameters):
 
     kind: Literal["voronoi"] = "voronoi"
     lloyd: int = quantity(
-        "How many times random points move to the centroids of their cells.",
+        "How many times random points move to the centroids of their cells; at most 100.",
         default=LLOYD,
         ge=0,
         le=100,

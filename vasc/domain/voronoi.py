@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vasc import kernels
 from vasc.arrays import Points
 from vasc.domain.blade import Blade
-from vasc.domain.parts import sound_cells
+from vasc.domain.parts import check_room, sound_cells
 from vasc.domain.sides import CellRings, areas_of
 from vasc.domain.tilings import tissue_of_rings
 from vasc.domain.tissue import Tissue
@@ -61,12 +61,14 @@ def voronoi_in(blade: Blade, rng: np.random.Generator, *, lloyd: int = LLOYD) ->
     Raises
     ------
     OutlineError
-        If a hole lies in one cell, or the cells make no tissue, or several; see
-        :func:`~vasc.domain.parts.sound_cells`.
+        If the blade has no room for two cells, a hole lies in one cell, or the cells make no
+        tissue, or several; see :func:`~vasc.domain.parts.sound_cells`.
     """
     import shapely
 
-    points = _random_points(blade, max(2, round(blade.area)), rng)
+    n_cells = round(blade.area)
+    check_room(n_cells)
+    points = _random_points(blade, n_cells, rng)
     shapely.prepare(blade.polygon)
     for _ in range(lloyd):
         points = _moved(points, _cut(_polygons(points), blade.polygon), blade)

@@ -71,6 +71,7 @@ def edge_columns(specimen: Specimen) -> dict[str, list[Any]]:
         "birth": specimen.segment_births.tolist(),
         "kind": [KINDS[code] for code in specimen.kinds.tolist()],
         "order": specimen.orders.tolist(),
+        "branching_order": specimen.branching_orders.tolist(),
         "width": specimen.widths.tolist(),
         "length": specimen.lengths.tolist(),
         "source": specimen.segment_causes.tolist(),

@@ -47,6 +47,7 @@ def vtp(specimen: Specimen) -> bytes:
         "birth": specimen.segment_births,
         "kind": specimen.kinds,
         "order": specimen.orders,
+        "branching_order": specimen.branching_orders,
         "width": specimen.widths,
         "length": specimen.lengths,
         "source": specimen.segment_causes,

@@ -9,6 +9,7 @@ import numpy as np
 from vasc.analysis.ancestry import descent, grown_nodes
 from vasc.analysis.branches import branch_orders
 from vasc.analysis.elongation import Elongation, stretched_pipes
+from vasc.analysis.segment_orders import segment_orders
 from vasc.analysis.tubes import strand_radii
 from vasc.analysis.units import LengthUnit
 from vasc.analysis.widths import WidthParameters, radii, segment_radii
@@ -59,6 +60,8 @@ class Specimen:
     kinds : ndarray of shape (m,), int8
         Codes, whose words are ``KINDS``.
     orders : ndarray of shape (m,), int32
+        Vein orders, from 1.
+    branching_orders : ndarray of shape (m,), int32
         Orders of branching, from 1.
     widths : ndarray of shape (m,), float64
         Widths of the segments.
@@ -85,6 +88,7 @@ class Specimen:
     segment_causes: Ids
     kinds: Codes
     orders: Ids
+    branching_orders: Ids
     widths: Floats
     rings: tuple[Points, ...]
 
@@ -218,7 +222,8 @@ def _cut(timeline: Timeline, frame: Frame, widths: Floats) -> Specimen:
         segment_births=network.segment_births,
         segment_causes=network.causes[grown_nodes(network, directions)],
         kinds=network.segment_kinds,
-        orders=branch_orders(network, directions=directions),
+        orders=segment_orders(network, widths),
+        branching_orders=branch_orders(network, directions=directions),
         widths=np.asarray(widths * unit.per_segment),
         rings=tuple(ring * unit.per_segment for ring in rings),
     )

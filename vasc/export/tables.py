@@ -31,7 +31,7 @@ AXES = {
 """What one column of points or pairs becomes."""
 AT_STEP = {
     "nodes": (("x", "y", "z", "radius"), "at the step exported"),
-    "segments": (("order", "width", "length"), "at the step exported"),
+    "segments": (("order", "branching_order", "width", "length"), "at the step exported"),
 }
 """Columns beyond those of a run's tables; empty for what refinement has replaced by then."""
 IN_LENGTH = ("x", "y", "z", "radius", "width", "length")
@@ -141,7 +141,12 @@ def _columns_with(timeline: Timeline, exported: Specimen) -> dict[str, dict[str,
         "nodes": (exported.ids, {**dict(places), "radius": exported.radii}),
         "segments": (
             exported.segment_ids,
-            {"order": exported.orders, "width": exported.widths, "length": exported.lengths},
+            {
+                "order": exported.orders,
+                "branching_order": exported.branching_orders,
+                "width": exported.widths,
+                "length": exported.lengths,
+            },
         ),
     }
     for name, (ids, added) in at_step.items():

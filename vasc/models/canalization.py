@@ -192,7 +192,7 @@ class CanalizationParameters(TissueExperiment):
     veins: VeinParameters = quantity("The veins that are there at first.")
     placement: AnyCellSources = quantity("Where and when sources appear.")
     background: float = quantity(
-        "What all ground cells make together, over what one source makes.",
+        "What all ground cells make together, over what one source makes; at most 1000.",
         default=0.0,
         ge=0.0,
         le=1e3,

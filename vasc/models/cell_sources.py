@@ -101,7 +101,7 @@ class CellDartParameters(CellSources):
     """Sources by dart throwing, one a round, ever closer to the veins there are by then."""
 
     kind: Literal["darts"] = "darts"
-    count: int = quantity("Sources in all, one a round.", ge=1, le=100_000)
+    count: int = quantity("Sources in all, one a round; at most 100000.", ge=1, le=100_000)
     first_distance: float = quantity(
         "No source of the first round appears nearer than that to a vein.", unit="D", gt=0.0
     )

@@ -143,13 +143,14 @@ class ConstantProductionParameters(TissueExperiment):
     kind: Literal["constant-production"] = "constant-production"
     veins: VeinParameters = quantity("The veins that are there at first.")
     threshold: float = quantity(
-        "Difference of concentration between ground and vein at which ground becomes vein.",
+        "Difference of concentration between ground and vein at which ground becomes vein; at most"
+        " 1e12.",
         unit="K D^2 / D_c",
         gt=0.0,
         le=1e12,
     )
     destruction: float = quantity(
-        "First-order destruction k.", unit="D_c / D^2", default=0.0, ge=0.0, le=1e6
+        "First-order destruction k; at most 1e6.", unit="D_c / D^2", default=0.0, ge=0.0, le=1e6
     )
 
     def model(self, folder: Path = Path()) -> ConstantProduction:

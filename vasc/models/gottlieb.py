@@ -17,7 +17,7 @@ from pydantic import model_validator
 
 from vasc import kernels
 from vasc.arrays import NULL, Floats, Ids, Points
-from vasc.domain import BladeParameters
+from vasc.domain import Blade, BladeParameters
 from vasc.errors import ConfigError
 from vasc.events import EventKind, StopReason
 from vasc.growth import Similarity
@@ -41,7 +41,11 @@ from vasc.streams import Streams
 from vasc.vasculature import Vasculature
 
 MOST_PIECES = 2e4
-"""Spaces, or segments, that a blade may be long."""
+"""Segments that a blade may be long."""
+SHORTEST = 1e-6
+"""Least length of the blade at first, in D: areas of far smaller ones vanish."""
+ROUNDING = 1e-9
+"""Share of its length that a vein along the margin may lie beyond it."""
 NOTHING = np.empty(0, dtype=np.int32)
 
 
@@ -111,9 +115,10 @@ class StraightVeins(Model):
     def connect(self, veins: Vasculature, moment: Moment, source: int) -> None:
         """Connect a source with the closest vein, or with all that are near and in sight.
 
-        Where every way would cross a vein, the source waits for the next step.
+        Where every way would cross a vein or leave the blade, the source waits for the next step.
         """
         place = veins.places("sources")[source]
+        blade = moment.growth.domain(moment.step)
         distances = _distances(veins.places("nodes")[: veins.nodes.n_rows], place)
         segments = veins.segments.view("nodes")[~veins.refined[: veins.segments.n_rows]]
         limit = np.inf if self.reach is None else self.reach / moment.scale
@@ -123,6 +128,9 @@ class StraightVeins(Model):
             if first >= 0 and (self.reach is None or distances[end] > limit):
                 break
             if kernels.crossings.is_crossed(veins.places("nodes"), segments, end, place):
+                continue
+            way = np.stack([veins.places("nodes")[end], place]) * moment.scale
+            if not stays_within(blade, way):
                 continue
             if first < 0:
                 nearest, first = end, self.extend(veins, moment, source, end)
@@ -220,6 +228,26 @@ class StraightVeins(Model):
         )
 
 
+def stays_within(blade: Blade, way: Points) -> bool:
+    """Tell whether a straight way stays in a blade, the margin included.
+
+    Parameters
+    ----------
+    blade : Blade
+        The blade.
+    way : ndarray of shape (2, 2), float64
+        The ends of the way, in D.
+    """
+    import shapely
+
+    apart = shapely.LineString(way).difference(blade.polygon)
+    if apart.is_empty:
+        return True
+    # ends on the margin may lie off it by rounding
+    beyond = shapely.get_coordinates(shapely.segmentize(apart, 0.25))
+    return bool(blade.margin_distance(beyond).max() <= ROUNDING * blade.length)
+
+
 def _distances(points: Points, place: Points) -> Floats:
     """Give the distances of points from a place, shape (n,)."""
     return np.sqrt(((points - place) ** 2).sum(axis=1))
@@ -238,23 +266,27 @@ class GottliebParameters(Parameters):
     reference: str = quantity("The figure or paper it follows.", default="")
     seed: int = quantity("Seed of all randomness; the model draws none.", default=1, ge=0, lt=2**63)
     domain: BladeParameters = quantity("The blade at step 0.")
-    doublings: int = quantity("Steps, in each of which the blade doubles.", default=4, ge=1, le=12)
+    doublings: int = quantity(
+        "Steps, in each of which the blade doubles; at most 12.", default=4, ge=1, le=12
+    )
     space: float = quantity(
-        "A source appears while the largest empty circle has a radius larger than this.",
+        "A source appears while the largest empty circle has a radius larger than this; from 1e-3"
+        " to at most 1e6.",
         unit="D",
         ge=1e-3,
         le=1e6,
     )
     reach: float | None = quantity(
         "Each source is connected with all veins in sight and so near, at least with the closest;"
-        " by default with the closest alone, so that veins form no loops.",
+        " by default with the closest alone, so that veins form no loops. At most 1e6.",
         unit="D",
         default=None,
         gt=0.0,
         le=1e6,
     )
     longest: float = quantity(
-        "Greatest length of a segment after growth: veins can be met at its ends.",
+        "Greatest length of a segment after growth: veins can be met at its ends; at most 1e6, and"
+        " not more than space.",
         unit="D",
         default=1.0,
         gt=0.0,
@@ -268,16 +300,21 @@ class GottliebParameters(Parameters):
     @model_validator(mode="after")
     def _check_size(self) -> "GottliebParameters":
         """Refuse a blade that no memory holds, and pieces longer than the spaces between them."""
-        length = self.domain.length * 2.0**self.doublings
-        if length > MOST_PIECES * min(self.space, self.longest):
-            raise ValueError(
-                f"doublings is {self.doublings}; the blade would be {length:.3g} D long, more than"
-                f" {MOST_PIECES:g} times space or longest"
-            )
+        first, last = self.domain.length, self.domain.length * 2.0**self.doublings
+        if first < SHORTEST:
+            raise ValueError(f"domain.length = {first:g}: must be at least {SHORTEST:g} D")
         if self.longest > self.space:
             raise ValueError(
-                f"longest is {self.longest:g}; it must be at most space ({self.space:g}), or"
+                f"longest = {self.longest:g}: must be at most space, {self.space:g} D, or"
                 " veins lie within a space without a node there"
+            )
+        # longest is the shorter of the two
+        if last > MOST_PIECES * self.longest:
+            raise ValueError(
+                f"domain.length = {first:g} and doublings = {self.doublings}: the blade would be"
+                f" {last:.3g} D long in the end, {last / self.longest:.3g} times longest ="
+                f" {self.longest:g}, more than memory can hold; at most {MOST_PIECES:g} times are"
+                " allowed"
             )
         return self
 
@@ -297,12 +334,19 @@ class GottliebParameters(Parameters):
         Raises
         ------
         ConfigError
-            If the blade has several parts or holes.
+            If the blade has several parts or holes, or no room for a source in the end.
         """
         blade = self.domain.blade(folder)
         if len(blade.rings) > 1:
             raise ConfigError(
                 f"domain: the outline has {len(blade.rings)} rings; the margin must be one"
+            )
+        low_x, low_y, high_x, high_y = blade.scaled(2.0**self.doublings).bounds
+        across = float(np.hypot(high_x - low_x, high_y - low_y))
+        if self.space >= across:
+            raise ConfigError(
+                f"space = {self.space:g}: no source would ever appear in a blade that is"
+                f" {across:.4g} D across in the end; it must be less"
             )
         growth = self.growth.growth(blade)
         return StraightVeins(

@@ -21,13 +21,14 @@ class Settling(Parameters):
     """Steps of time that bound the change of every wall, and rest when none asks for any."""
 
     tolerance: float = quantity(
-        "Largest change of a wall in a step, relative to its state plus 1.",
+        "Largest change of a wall in a step, relative to its state plus 1; from 1e-3 to at most"
+        " 100.",
         default=0.3,
         ge=1e-3,
         le=100.0,
     )
     largest_lapse: float = quantity(
-        "Longest step.", unit="turnover times", default=1.0, gt=0.0, le=100.0
+        "Longest step; at most 100.", unit="turnover times", default=1.0, gt=0.0, le=100.0
     )
     rest: float = quantity(
         "Walls are at rest when none asks for a larger relative change.",
@@ -38,7 +39,7 @@ class Settling(Parameters):
     until: float | None = quantity(
         "Time after which canals are taken as they are, though walls still change; by default 40"
         " turnover times, for polar transport 1.5 for each cell of the longest way to a vein, if"
-        " that is more.",
+        " that is more. At most 1e5.",
         unit="turnover times",
         default=None,
         gt=0.0,

@@ -71,10 +71,12 @@ class FacilitatedDiffusion(Transport):
     )
 
     kind: Literal["facilitated"] = "facilitated"
-    gain: float = quantity("Feedback gain A = alpha K^2 / beta.", default=3e3, gt=0.0, le=1e12)
+    gain: float = quantity(
+        "Feedback gain A = alpha K^2 / beta; at most 1e12.", default=3e3, gt=0.0, le=1e12
+    )
     saturation: float | None = quantity(
-        "Largest state of a wall over the resting one, D_max gamma / beta; the gain when not"
-        " given.",
+        "Largest state of a wall over the resting one, D_max gamma / beta, at most 1e12; the gain"
+        " when not given.",
         default=None,
         gt=1.0,
         le=1e12,
@@ -138,13 +140,15 @@ class PolarTransport(PolarWalls):
     )
 
     kind: Literal["polar"] = "polar"
-    gain: float = quantity("Feedback gain A = alpha K^2 / (gamma T).", default=1e3, gt=0, le=1e12)
+    gain: float = quantity(
+        "Feedback gain A = alpha K^2 / (gamma T); at most 1e12.", default=1e3, gt=0, le=1e12
+    )
     saturation: float | Literal["none"] | None = quantity(
         "Most carriers of a wall, P_max / T; the gain when not given, 'none' for no limit.",
         default=None,
     )
     baseline: float = quantity(
-        "Carriers without flux, B = beta / (gamma T).", default=0.1, gt=0.0, le=1e6
+        "Carriers without flux, B = beta / (gamma T); at most 1e6.", default=0.1, gt=0.0, le=1e6
     )
 
     @model_validator(mode="after")
@@ -188,9 +192,15 @@ class PooledTransport(PolarWalls):
     )
 
     kind: Literal["pool"] = "pool"
-    gain: float = quantity("Feedback gain A = alpha K^2 / (gamma T).", default=30.0, gt=0, le=1e12)
-    baseline: float = quantity("Weight of a wall without flux, B.", default=0.2, gt=0.0, le=1e6)
-    pool: float = quantity("Carriers of a cell, P_tot / T.", default=10.0, gt=0.0, le=1e12)
+    gain: float = quantity(
+        "Feedback gain A = alpha K^2 / (gamma T); at most 1e12.", default=30.0, gt=0, le=1e12
+    )
+    baseline: float = quantity(
+        "Weight of a wall without flux, B; at most 1e6.", default=0.2, gt=0.0, le=1e6
+    )
+    pool: float = quantity(
+        "Carriers of a cell, P_tot / T; at most 1e12.", default=10.0, gt=0.0, le=1e12
+    )
 
     @property
     def most(self) -> float:

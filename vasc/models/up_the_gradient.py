@@ -16,7 +16,8 @@ import numpy as np
 
 from vasc import kernels
 from vasc.arrays import Floats
-from vasc.errors import RunError
+from vasc.domain import Tissue
+from vasc.errors import ConfigError, RunError
 from vasc.events import StopReason
 from vasc.fields import Fields, Role
 from vasc.models.base import newest
@@ -38,15 +39,30 @@ class Spread(NamedTuple):
 
 
 class AuxinRates(Parameters):
-    """What cells do with auxin (Abley et al., 2016, Table 3); amounts in arbitrary units, Au."""
+    """What cells do with auxin (Abley et al., 2016, Table 3); amounts in arbitrary units, Au.
 
-    production: float = quantity("Production, rho.", unit="Au/um2/s", default=3e-4, gt=0.0)
-    decay: float = quantity("Decay, mu.", unit="1/s", default=5e-3, gt=0.0)
-    diffusion: float = quantity("Passive permeation, D.", unit="um/s", default=10.0, ge=0.0)
-    transport: float = quantity("Efflux by carriers, T.", unit="um2/Au/s", default=80.0, ge=0.0)
-    carriers: float = quantity("Carriers of a cell, P_i.", unit="Au/um", default=0.1, gt=0.0)
+    Ranges are ours: Table 3 has the defaults, and values that differ from them by more than
+    three orders of magnitude are taken for mistakes.
+    """
+
+    production: float = quantity(
+        "Production, rho; at most 1.", unit="Au/um2/s", default=3e-4, gt=0.0, le=1.0
+    )
+    decay: float = quantity(
+        "Decay, mu; from 1e-6 to at most 10.", unit="1/s", default=5e-3, ge=1e-6, le=10.0
+    )
+    diffusion: float = quantity(
+        "Passive permeation, D; at most 1e4.", unit="um/s", default=10.0, ge=0.0, le=1e4
+    )
+    transport: float = quantity(
+        "Efflux by carriers, T; at most 1e5.", unit="um2/Au/s", default=80.0, ge=0.0, le=1e5
+    )
+    carriers: float = quantity(
+        "Carriers of a cell, P_i; at most 100.", unit="Au/um", default=0.1, gt=0.0, le=100.0
+    )
     base: float = quantity(
-        "A wall gets b times the carriers for each Au/um2 more behind it; A is in Au/um2.",
+        "A wall gets b times the carriers for each Au/um2 more behind it; A is in Au/um2; at most"
+        " 1e12.",
         default=6.0,
         gt=1.0,
         le=1e12,
@@ -56,7 +72,13 @@ class AuxinRates(Parameters):
 class StartParameters(Parameters):
     """How auxin is spread at first."""
 
-    concentration: float = quantity("Auxin at first, A(0).", unit="Au/um2", default=0.01, ge=0.0)
+    concentration: float = quantity(
+        "Auxin at first, A(0); at most 1000, far above rho / mu of the paper.",
+        unit="Au/um2",
+        default=0.01,
+        ge=0.0,
+        le=1e3,
+    )
     noise: float = quantity(
         "Half the range of a factor around 1, drawn a cell.", default=0.025, ge=0.0, lt=1.0
     )
@@ -65,8 +87,17 @@ class StartParameters(Parameters):
 class TimeParameters(Parameters):
     """Steps of time, and rest."""
 
-    time_step: float = quantity("Step of the integration.", unit="s", default=0.01, gt=0.0)
-    recorded: int = quantity("Such steps between two records.", default=1000, ge=1, le=10**7)
+    time_step: float = quantity(
+        "Step of the integration, from 1e-6 to at most 1000; no cell may lose more in a step than"
+        " it has.",
+        unit="s",
+        default=0.01,
+        ge=1e-6,
+        le=1e3,
+    )
+    recorded: int = quantity(
+        "Such steps between two records, at most 10000000.", default=1000, ge=1, le=10**7
+    )
     rest: float = quantity(
         "The tissue is at rest when no cell changes by more than that share of its largest"
         " concentration in the time 1/mu.",
@@ -118,7 +149,7 @@ class UpTheGradient(TissueModel):
         Raises
         ------
         RunError
-            If the steps of time are too long for the flow.
+            If concentrations leave their range, as in steps of time that are too long.
         """
         before, times = newest(state, Spread).auxin, self.times
         tissue = self.tissue
@@ -179,22 +210,77 @@ class UpTheGradientParameters(TissueExperiment):
 
     kind: Literal["up-the-gradient"] = "up-the-gradient"
     width: float = quantity(
-        "One D, the width of a cell; by default that of a hexagon with sides of 10 um.",
+        "One D, the width of a cell; by default that of a hexagon with sides of 10 um; from 0.1"
+        " to at most 10000, which holds the cells of all plants.",
         unit="um",
         default=HEXAGON,
-        gt=0.0,
+        ge=0.1,
+        le=1e4,
     )
     auxin: AuxinRates = quantity("What cells do with auxin.", default=AuxinRates())
     start: StartParameters = quantity("Auxin at first.", default=StartParameters())
     times: TimeParameters = quantity("Steps of time, and rest.", default=TimeParameters())
 
     def model(self, folder: Path = Path()) -> UpTheGradient:
-        """Give the model; files are looked for in ``folder``."""
+        """Give the model; files are looked for in ``folder``.
+
+        Raises
+        ------
+        ConfigError
+            If a cell would lose more auxin in a step of time than it has.
+        """
+        tissue = self.domain.tissue(self.seed, folder)
+        check_time_step(tissue, self.width, self.auxin, self.times.time_step)
         return UpTheGradient(
-            tissue=self.domain.tissue(self.seed, folder),
+            tissue=tissue,
             width=self.width,
             auxin=self.auxin,
             start=self.start,
             times=self.times,
             last_step=self.stop.steps,
         )
+
+
+def check_time_step(tissue: Tissue, width: float, auxin: AuxinRates, time_step: float) -> None:
+    """Refuse steps of time in which a cell may lose more auxin than it has.
+
+    A cell loses at most mu + (1/R) (D sum_j l_ij + T P_i max_j l_ij) of it in a second.
+
+    Parameters
+    ----------
+    tissue : Tissue
+        The cells.
+    width : float
+        One D in um.
+    auxin : AuxinRates
+        What cells do with auxin.
+    time_step : float
+        Step of the integration, in s.
+
+    Raises
+    ------
+    ConfigError
+        If the step is too long; the message names the rate that asks most for a shorter one.
+    """
+    cells, lengths = tissue.walls.T.ravel(), np.tile(tissue.lengths, 2)
+    longest = np.zeros(tissue.n_cells)
+    np.maximum.at(longest, cells, lengths)
+    around = np.bincount(cells, lengths, minlength=tissue.n_cells)
+    per_area = 1.0 / (tissue.volumes * width)
+    rates = {
+        ("decay", auxin.decay): auxin.decay,
+        ("diffusion", auxin.diffusion): auxin.diffusion * float((around * per_area).max()),
+        ("transport", auxin.transport): auxin.transport
+        * auxin.carriers
+        * float((longest * per_area).max()),
+    }
+    total = sum(rates.values())
+    if time_step * total <= 1.0:
+        return
+    key, value = max(rates, key=lambda one: rates[one])
+    also = f" and auxin.carriers = {auxin.carriers:g}" if key == "transport" else ""
+    raise ConfigError(
+        f"auxin.{key} = {value:g}{also}: a cell may lose {total:.3g} times the auxin it has in a"
+        f" second; times.time_step, {time_step:g} s, must be at most {1.0 / total:.3g} s with"
+        " these rates"
+    )

@@ -6,9 +6,10 @@ from vasc.networks_in.edges import Edges, shown
 from vasc.real_network import RealNetwork
 
 NUMBER = r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?"
-PLACE = re.compile(rf"\(\s*({NUMBER})\s*,\s*({NUMBER})\s*\)")
-COUNT = re.compile(r"\d{1,7}")
 # newer numpy writes np.float64(2.5) where older ones wrote 2.5
+VALUE = rf"(?:np\.\w+\(\s*)?({NUMBER})\)?"
+PLACE = re.compile(rf"\(\s*{VALUE}\s*,\s*{VALUE}\s*\)")
+COUNT = re.compile(r"\d{1,7}")
 MEASURE = re.compile(rf"['\"](\w+)['\"]\s*:\s*(?:np\.\w+\()?({NUMBER})")
 
 

@@ -150,6 +150,7 @@ def _leaf_figures(timeline: Timeline, steps: list[int], look: LeafLook) -> Itera
             color=look.color,
             widths=settled,
             node_widths=stretched.get(step),
+            asked_widths=look.widths,
             sources=look.sources,
             scale_bar=look.scale_bar,
             units=timeline.units,

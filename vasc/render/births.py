@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vasc.analysis.segment_orders import run_node_orders
 from vasc.analysis.units import LengthUnit
 from vasc.events import EventKind
+from vasc.render.files import widths_of
 from vasc.render.styles import INK, ORDER_COLORS, TEXT_SIZE, LeafStyle
 
 if TYPE_CHECKING:
@@ -42,7 +44,7 @@ def draw_births(
     step: int = -1,
     *,
     orders: NDArray | None = None,
-    order_name: str = "branching order",
+    order_name: str = "vein order",
     style: LeafStyle | None = None,
 ) -> Figure:
     """Draw the birth of every vein: time to the right, height above the base upward.
@@ -59,7 +61,8 @@ def draw_births(
     step : int
         The last step to show, the last one recorded when not given.
     orders : ndarray of shape (n,), int, optional
-        An order for each node; branching orders if left out.
+        An order for each node; vein orders at that step if left out (see
+        :mod:`vasc.analysis.segment_orders`).
     order_name : str
         What these orders are called.
     style : LeafStyle, optional
@@ -87,6 +90,9 @@ def draw_births(
     )
     figure.subplots_adjust(left=0.1, right=0.97, top=0.97, bottom=0.09)
     unit = LengthUnit.from_table(timeline.units)
+    if orders is None:
+        n_nodes = timeline.n_rows("nodes")
+        orders = run_node_orders(timeline.frame, last, widths_of(timeline), n_nodes)
     table = timeline.lineage.births(orders)
     is_shown = table["step"] <= last
     _draw_extent(above, timeline, last, unit, style)

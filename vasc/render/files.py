@@ -104,12 +104,12 @@ def render(
         if color in TISSUE_COLOR_CHOICES:
             figure = draw_steps(timeline, frames, color=color, scale_bar=scale_bar, side=side)
         else:
-            widths = widths_of(timeline) if widths is None else widths
+            asked = widths_of(timeline) if widths is None else widths
             style = LeafStyle() if style is None else style
             figure, axes, views = _laid_out(frames, color, style, side)
-            stretched = node_widths(timeline, widths, [frame.step for frame in frames])
+            stretched = node_widths(timeline, asked, [frame.step for frame in frames])
             last = frames[-1]
-            widths = fitted_widths(last, widths, style, views[-1], stretched.get(last.step))
+            widths = fitted_widths(last, asked, style, views[-1], stretched.get(last.step))
             for frame, view, ax in zip(frames, views, axes, strict=True):
                 draw_leaf(
                     frame,
@@ -117,6 +117,7 @@ def render(
                     color=color,
                     widths=widths,
                     node_widths=stretched.get(frame.step),
+                    asked_widths=asked,
                     sources=sources,
                     scale_bar=scale_bar and frame is frames[0],
                     key=frame is last,

@@ -23,6 +23,8 @@ SIDE, TREES = 7.0, 5.0
 """Longer side of the blade's part, and width of the part with the trees, in inches."""
 LEFT, RIGHT, BELOW, ABOVE = 0.35, 0.25, 0.45, 0.3
 """Room around the trees, in inches."""
+ROWS = 60
+"""Numbers of trees that fit above each other."""
 MOST_TREES = 24
 """First-order loops that have a colour, a number and a tree: those with most parts."""
 PALEST = 0.55
@@ -129,6 +131,9 @@ def _heights(tree: Genealogy, loops: list[int]) -> NDArray[np.float64]:
     for areole, parent in enumerate(tree.parents.tolist()):
         children.setdefault(parent, []).append(areole)
     heights = np.full(tree.n_areoles, np.nan)
+    n_whole = sum(1 for areole in range(tree.n_areoles) if areole not in children)
+    # a tree is at least as high as its number, which takes one of so many rows
+    least = n_whole / max(ROWS - len(loops), 1)
     place = 0.0
     for loop in loops:
         # parts after what they are parts of; the tree may be deeper than calls may be
@@ -136,6 +141,7 @@ def _heights(tree: Genealogy, loops: list[int]) -> NDArray[np.float64]:
         while waiting:
             order.append(waiting.pop())
             waiting += children.get(order[-1], [])[::-1]
+        begin = place
         for areole in order:
             if not children.get(areole):
                 heights[areole] = place
@@ -144,7 +150,7 @@ def _heights(tree: Genealogy, loops: list[int]) -> NDArray[np.float64]:
             if children.get(areole):
                 heights[areole] = heights[children[areole]].mean()
         # a gap between two trees
-        place += max(1.0, 0.02 * len(loops))
+        place = max(place + max(1.0, 0.02 * len(loops)), begin + least)
     return heights
 
 

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from vasc.domain import Blade
+    from vasc.network import VeinNetwork
 
 SIDE = 8.0
 """Longer side of a picture, in inches: 1600 pixels at 200 pixels per inch."""
@@ -136,6 +137,7 @@ def draw_leaf(
     color: str = "width",
     widths: WidthParameters | None = None,
     node_widths: Floats | None = None,
+    asked_widths: WidthParameters | None = None,
     sources: bool = False,
     scale_bar: bool = True,
     key: bool = True,
@@ -160,6 +162,9 @@ def draw_leaf(
     node_widths : ndarray of shape (n,), float64, optional
         Relative width of every node, as :mod:`vasc.analysis.elongation` gives it;
         Murray's law tells the widths if left out.
+    asked_widths : WidthParameters, optional
+        Those that the run asks for, by which vein orders are told, where ``widths`` were
+        fitted to a picture; ``widths`` if left out.
     sources : bool
         Whether to draw the live sources.
     scale_bar : bool
@@ -202,7 +207,9 @@ def draw_leaf(
     painted = Paint(color, style, moment.step if last_step is None else last_step)
     if color == "state":
         painted = replace(painted, canals=moment.canals)
-    coloring = _draw_veins(ax, moment, view, painted, widths or WidthParameters(), node_widths)
+    widths = widths or WidthParameters()
+    asked = widths if asked_widths is None else asked_widths
+    coloring = _draw_veins(ax, moment, view, painted, (widths, asked), node_widths)
     if painted.canals.n_canals:
         draw_canals(ax, moment)
         style, sources = replace(style, source_size=SOURCE_SIZE), True
@@ -251,11 +258,7 @@ def fitted_widths(
     WidthParameters
         With a tip radius, so that it draws to scale.
     """
-    if node_widths is None:
-        counted = pipes(moment.network, veinlets=widths.veinlets)
-    else:
-        counted = stretched_pipes(moment.network, node_widths, widths.exponent)
-    return _fit(moment, counted, widths, style, view)
+    return _fit(moment, _counted(moment.network, widths, node_widths), widths, style, view)
 
 
 def padded(blade: Blade, style: LeafStyle) -> tuple[float, float, float, float]:
@@ -263,6 +266,23 @@ def padded(blade: Blade, style: LeafStyle) -> tuple[float, float, float, float]:
     left, bottom, right, top = blade.bounds
     padding = 2.0 * style.padding * max(right - left, top - bottom)
     return (left + right) / 2, (bottom + top) / 2, right - left + padding, top - bottom + padding
+
+
+def _counted(
+    network: VeinNetwork,
+    widths: WidthParameters,
+    node_widths: Floats | None,
+    directions: Descent | None = None,
+) -> Pipes:
+    """Count the pipes of a network, by its elongation where that is known."""
+    if node_widths is None:
+        return pipes(network, veinlets=widths.veinlets, directions=directions)
+    return stretched_pipes(network, node_widths, widths.exponent)
+
+
+def _widths_of(counted: Pipes, widths: WidthParameters) -> Floats:
+    """Give the widths of segments, in D."""
+    return 2.0 * radii(counted.segments, widths, float(counted.nodes.max(initial=1.0)))
 
 
 def _fit(
@@ -299,19 +319,18 @@ def _draw_veins(
     moment: Moment,
     view: View,
     paint: Paint,
-    widths: WidthParameters,
+    widths: tuple[WidthParameters, WidthParameters],
     node_widths: Floats | None,
 ) -> Coloring:
-    """Draw all segments, the finest first."""
+    """Draw all segments, the finest first, as wide as the first widths; the others tell orders."""
     network = moment.network
     directions = descent(network)
-    counted = pipes(network, veinlets=widths.veinlets, directions=directions)
-    coloring = color_segments(network, paint, directions, counted)
-    if node_widths is not None:
-        counted = stretched_pipes(network, node_widths, widths.exponent)
-    fitted = _fit(moment, counted, widths, paint.style, view)
-    most = float(counted.nodes.max(initial=1.0))
-    lines = 2.0 * view.points_per_length * radii(counted.segments, fitted, most)
+    drawn, asked = widths
+    counted = _counted(network, asked, node_widths, directions)
+    coloring = color_segments(network, paint, directions, _widths_of(counted, asked))
+    counted = _counted(network, drawn, node_widths, directions)
+    fitted = _fit(moment, counted, drawn, paint.style, view)
+    lines = view.points_per_length * _widths_of(counted, fitted)
     if paint.color == "state":
         is_under_way = coloring.classes > 0
         lines[is_under_way] = np.maximum(lines[is_under_way], STRAND_WIDTH)

@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vasc.analysis.ancestry import Descent, grown_nodes
-from vasc.analysis.branches import branch_orders
-from vasc.analysis.widths import Pipes, WidthParameters
-from vasc.arrays import NULL, Floats
+from vasc.analysis.segment_orders import segment_orders
+from vasc.analysis.widths import WidthParameters
+from vasc.arrays import NULL, Floats, Ids
 from vasc.canals import NO_CANALS, CanalSet
 from vasc.errors import VascError
 from vasc.network import SegmentKind, VeinNetwork
@@ -54,8 +54,8 @@ class Paint:
     Parameters
     ----------
     color : {"width", "order", "age", "source", "kind", "state"}
-        Nothing beyond the width; the order of branching (see
-        :func:`vasc.analysis.branch_orders`); the step of birth; the source that
+        Nothing beyond the width; the vein order (see
+        :func:`vasc.analysis.vein_orders`); the step of birth; the source that
         caused the vein; extension, join or refinement; differentiation.
     style : LeafStyle
         The colour of plain veins.
@@ -154,7 +154,7 @@ def width_classes(widths: Floats, n_classes: int) -> tuple[NDArray[np.int64], Fl
 
 
 def color_segments(
-    network: VeinNetwork, paint: Paint, directions: Descent, counted: Pipes
+    network: VeinNetwork, paint: Paint, directions: Descent, widths: Floats
 ) -> Coloring:
     """Choose a colour for every segment.
 
@@ -164,8 +164,10 @@ def color_segments(
         The veins.
     paint : Paint
         What colours are to tell.
-    directions, counted
-        The network's descent and pipes.
+    directions : Descent
+        The network's descent.
+    widths : ndarray of shape (m,), float64
+        Widths of the segments by the rule of the run, which tell vein orders.
 
     Returns
     -------
@@ -181,7 +183,7 @@ def color_segments(
         plain = np.zeros(network.n_segments, dtype=np.int64)
         return Coloring(plain, (style.vein,), Key())
     if color == "order":
-        return _by_order(network, directions, counted)
+        return _by_order(segment_orders(network, widths))
     if color == "age":
         return _by_age(network, directions, paint.last_step)
     if color == "source":
@@ -201,15 +203,14 @@ def color_segments(
     raise VascError(f"color: {color!r} is not one of {', '.join(COLOR_CHOICES)}")
 
 
-def _by_order(network: VeinNetwork, directions: Descent, counted: Pipes) -> Coloring:
-    """Colour by order of branching, all orders from the last colour on alike."""
-    orders = branch_orders(network, counted=counted, directions=directions)
+def _by_order(orders: Ids) -> Coloring:
+    """Colour by vein order, all orders from the last colour on alike."""
     n_colors = len(ORDER_COLORS)
     n_shown = min(int(orders.max(initial=1)), n_colors)
     labels = [str(order) for order in range(1, n_shown + 1)]
     if n_shown == n_colors:
         labels[-1] += "+"
-    key = Key("branch order", tuple(labels), ORDER_COLORS[:n_shown])
+    key = Key("vein order", tuple(labels), ORDER_COLORS[:n_shown])
     return Coloring(np.minimum(orders, n_colors).astype(np.int64) - 1, ORDER_COLORS, key)
 
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from vasc.analysis.tissue_units import unit_of
 from vasc.errors import VascError
 from vasc.render.leaf import SIDE
 from vasc.render.panels import side_by_side
@@ -17,11 +18,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from vasc.timeline import Frame, Timeline
-
-PERMEABILITIES = {"facilitated": "β/γ", "polar": "T", "pool": "T"}
-"""Unit of what a wall lets pass, by the kind of transport."""
-CONCENTRATIONS = {"facilitated": "Kγ/β", "polar": "K/T", "pool": "K/T"}
-"""Unit of auxin, K being what a source makes."""
 
 
 def chosen_color(timeline: Timeline, color: str | None) -> str:
@@ -41,18 +37,6 @@ def chosen_color(timeline: Timeline, color: str | None) -> str:
     if color not in known:
         raise VascError(f"color: {color!r} is not one of {', '.join(known)}")
     return color
-
-
-def unit_of(config: Mapping[str, Any], color: str) -> str:
-    """Give the unit of what cells are shaded by; empty where it has none of its own."""
-    if config.get("kind") == "up-the-gradient":
-        return "Au/µm²" if color == "concentration" else ""
-    kind = (config.get("transport") or {}).get("kind", "")
-    if color == "concentration":
-        return CONCENTRATIONS.get(kind, "")
-    if color == "carriers":
-        return PERMEABILITIES.get(kind, "")
-    return "K" if color == "flux" and kind in CONCENTRATIONS else ""
 
 
 def draw_steps(

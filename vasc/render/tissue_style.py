@@ -88,7 +88,8 @@ def shades_of(moment: Moment, color: str) -> Floats:
         One step of a run on a tissue.
     color : {"concentration", "flux", "carriers", "role"}
         Auxin; what passes each cell; the carriers that take auxin out of it (the
-        permeability of its most permeable wall where that has no direction); what it does.
+        permeability of its most permeable wall where that has no direction); what it does
+        when the step is over, canals that became vein in it included.
     """
     tissue, fields = tissue_of_moment(moment)
     if color == "flux":
@@ -101,7 +102,10 @@ def shades_of(moment: Moment, color: str) -> Floats:
             np.maximum.at(most, tissue.walls[:, side], fields.carriers[:, side])
         return most
     if color == "role":
-        return fields.roles.astype(np.float64)
+        roles = fields.roles.astype(np.float64)
+        # a canal that became vein at the end of the step has nodes, but not yet the role
+        roles[tissue.nearest_cells(moment.network.positions)] = Role.VEIN
+        return roles
     return fields.concentration
 
 

@@ -17,8 +17,13 @@ SUMMARY = (
 )
 STATISTICS = (
     *("step", "time", "length_unit", "blade_length", "blade_area", "nodes", "segments"),
-    *("components", "cycles", "vein_length", "vein_density", "areoles", "areole_area_mean"),
-    *("areole_area_cv", "areole_circularity_median", "areole_elongation_median"),
+    *("components", "cycles", "vein_length", "vein_density", "areoles", "flat_areoles"),
+    *(
+        "areole_area_mean",
+        "areole_area_cv",
+        "areole_circularity_median",
+        "areole_elongation_median",
+    ),
     *("areole_corners_mean", "areole_corners_variance", "enclosed_area", "free_ends"),
     *("free_ends_per_areole", *(f"junction_degree.{degree}" for degree in range(3, 9))),
     *("sections", "section_length_mean", "section_length_cv", "free_end_length_share"),

@@ -92,7 +92,7 @@ def competitors(timeline: Recorded, veins: Veins, source: int | None = None) -> 
     return {
         "source": pairs[order, 0],
         "vein": pairs[order, 1],
-        "order": veins.orders[pairs[order, 1]],
+        "branching_order": veins.orders[pairs[order, 1]],
         "first": first[order].astype(np.int32),
         "last": last[order].astype(np.int32),
         "nodes": np.bincount(distinct[:, 0], minlength=len(pairs))[order].astype(np.int32),

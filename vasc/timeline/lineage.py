@@ -163,7 +163,9 @@ class Lineage:
         Parameters
         ----------
         orders : ndarray of shape (n,), int, optional
-            An order for each node; branching orders if left out.
+            An order for each node, -1 where it is not known: vein orders, as
+            :func:`vasc.analysis.segment_orders.run_node_orders` gives them. Without any,
+            the table has branching orders alone.
 
         Returns
         -------
@@ -173,14 +175,16 @@ class Lineage:
         Raises
         ------
         TimelineError
-            If there is not one order a node.
+            If there is not one whole number a node.
         """
         n_nodes = self._timeline.n_rows("nodes")
-        if orders is not None and np.shape(orders) != (n_nodes,):
-            raise TimelineError(
-                f"{self._timeline.path}: orders: expected shape ({n_nodes},), one a node, "
-                f"got {np.shape(orders)}"
-            )
+        if orders is not None:
+            orders = np.asarray(orders)
+            if orders.shape != (n_nodes,) or orders.dtype.kind != "i":
+                raise TimelineError(
+                    f"{self._timeline.path}: orders: expected integers of shape ({n_nodes},), "
+                    f"one a node, got {orders.dtype} of shape {orders.shape}"
+                )
         return births(self._timeline, self.veins, orders)
 
     def competitors(self, source: int | None = None) -> dict[str, NDArray]:
@@ -226,13 +230,15 @@ class Lineage:
         self._check("node", node, self._timeline.n_rows("nodes"))
         return loop_of(self._timeline, self.veins, self._loops, node)
 
-    def table(self, name: str) -> dict[str, NDArray]:
+    def table(self, name: str, orders: NDArray | None = None) -> dict[str, NDArray]:
         """Give a table by its name, as columns of numpy.
 
         Parameters
         ----------
         name : {"areoles", "births", "births_by_order", "competitors", "fates", "life_table"}
             Which.
+        orders : ndarray of shape (n,), int, optional
+            Orders of nodes for the tables of births, as for :meth:`births`.
 
         Returns
         -------
@@ -250,14 +256,14 @@ class Lineage:
         if name == "areoles":
             return self._loops[0].columns()
         if name == "births_by_order":
-            return births_by_order(self.births())
+            return births_by_order(self.births(orders))
         if name == "births":
-            return self.births()
+            return self.births(orders)
         if name == "competitors":
             return self.competitors()
         return self.fate_table() if name == "fates" else self.life_table()
 
-    def to_pandas(self, name: str) -> Any:
+    def to_pandas(self, name: str, orders: NDArray | None = None) -> Any:
         """Give a table as a ``pandas.DataFrame``; its index is the first column.
 
         Codes become names, null stays -1.
@@ -266,6 +272,8 @@ class Lineage:
         ----------
         name : str
             As for :meth:`table`.
+        orders : ndarray of shape (n,), int, optional
+            As for :meth:`births`.
 
         Returns
         -------
@@ -279,7 +287,7 @@ class Lineage:
             If pandas is not installed.
         """
         pandas = require("pandas", "tables")
-        columns: dict[str, Any] = dict(self.table(name))
+        columns: dict[str, Any] = dict(self.table(name, orders))
         if "fate" in columns:
             names = [fate.name.lower() for fate in Fate]
             columns["fate"] = pandas.Categorical.from_codes(columns["fate"], names)

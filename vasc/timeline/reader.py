@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vasc.arrays import NULL, Ids, Points, Table
 from vasc.domain import Blade, Tissue
-from vasc.errors import OutlineError, TimelineError
+from vasc.errors import TimelineError
 from vasc.fields import Fields
 from vasc.state import Tables, table_columns
 from vasc.timeline import guard, layout, opening
@@ -23,6 +23,7 @@ from vasc.timeline.frame import Frame
 from vasc.timeline.layout import MOTION, TABLES, Motion, count_column
 from vasc.timeline.lineage import Lineage
 from vasc.timeline.occurrences import Events
+from vasc.timeline.outlines import read_initial_blade
 from vasc.timeline.provenance import sessions
 from vasc.timeline.tissues import RecordedPast, read_fields, read_tissue
 
@@ -177,16 +178,7 @@ class Timeline:
         """The blade at step 0; a stem has none, which is an error."""
         if self.dimensions != 2:
             raise TimelineError(f"{self.path}: a stem has no blade")
-        xy = self.opened.read_array(layout.RING_XY)
-        starts = self.opened.read_array(layout.RING_STARTS)
-        ends_fit = len(starts) > 1 and starts[0] == 0 and starts[-1] == len(xy)
-        if not ends_fit or (np.diff(starts) < 3).any():
-            raise TimelineError(f"{self.path}: {layout.RING_STARTS} does not divide the outline")
-        rings = tuple(np.split(xy, starts[1:-1]))
-        try:
-            return Blade.from_rings(rings, self.opened.read_array(layout.SEEDS))
-        except OutlineError as error:
-            raise TimelineError(f"{self.path}: the recorded outline is bad: {error}") from error
+        return read_initial_blade(self.opened)
 
     @cached_property
     def base_ring(self) -> Ids:

@@ -35,7 +35,7 @@ class VeinLoop:
         The node that was asked for.
     vein : int
         The first node of its vein.
-    order : int
+    branching_order : int
         Branching order of the vein.
     areole : int
         The areole the vein grew in, -1 if in open tissue.
@@ -47,7 +47,7 @@ class VeinLoop:
 
     node: int
     vein: int
-    order: int
+    branching_order: int
     areole: int
     first_order: int
     ancestors: tuple[int, ...]

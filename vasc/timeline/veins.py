@@ -38,7 +38,7 @@ class Veins:
         The first node of the vein of each node.
     orders : ndarray of shape (n,), int32
         Branching order: 1 for veins from a seed, and one more at each later initiation.
-        It is counted by parentage alone, and is not the order of leaf architecture.
+        It is counted by parentage alone, and is not the vein order.
     """
 
     firsts: Ids
@@ -90,17 +90,18 @@ def births(timeline: Recorded, veins: Veins, orders: Ids | None = None) -> dict[
     veins : Veins
         Its :func:`veins_of`.
     orders : ndarray of shape (n,), int, optional
-        An order for each node, for example of leaf architecture; branching orders if left out.
+        An order for each node, -1 where it is not known; as a rule the vein orders of
+        :func:`vasc.analysis.segment_orders.run_node_orders`.
 
     Returns
     -------
     dict of str to ndarray of shape (v,)
-        ``vein``, its first node; ``step`` and ``time`` of birth; ``order``; ``origin``, the
-        vein it left, -1 for one of a seed; ``source`` that caused it, -1 if none; ``height``
-        of the first node above the base at that step, in D; and ``nodes``, how many the
-        vein has at the end, those of refinement included.
+        ``vein``, its first node; ``step`` and ``time`` of birth; if orders were given,
+        ``order``, the lowest of its nodes, -1 if none is known; ``branching_order``; ``origin``,
+        the vein it left, -1 for one of a seed; ``source`` that caused it, -1 if none;
+        ``height`` of the first node above the base at that step, in D; and ``nodes``, how
+        many the vein has at the end, those of refinement included.
     """
-    orders = veins.orders if orders is None else np.asarray(orders)
     firsts, counts = np.unique(veins.firsts, return_counts=True)
     steps = timeline.table("nodes", "birth")[firsts]
     order = np.lexsort((firsts, steps))
@@ -110,7 +111,8 @@ def births(timeline: Recorded, veins: Veins, orders: Ids | None = None) -> dict[
         "vein": firsts,
         "step": steps,
         "time": timeline.frames["time"][steps],
-        "order": orders[firsts],
+        **({} if orders is None else {"order": _lowest(veins, np.asarray(orders))[firsts]}),
+        "branching_order": veins.orders[firsts],
         "origin": np.where(parents == NULL, NULL, veins.firsts[parents]).astype(np.int32),
         "source": timeline.table("nodes", "source")[firsts],
         "height": heights_at(timeline, firsts, steps),
@@ -153,17 +155,27 @@ def births_by_order(table: Mapping[str, NDArray]) -> dict[str, NDArray]:
     Returns
     -------
     dict of str to ndarray
-        ``order``; ``veins``, their number; ``first``, ``median`` and ``last`` step of birth.
+        ``order``, or ``branching_order`` if the table has no other; ``veins``, their number;
+        ``first``, ``median`` and ``last`` step of birth.
     """
-    orders = np.unique(table["order"])
-    steps = [table["step"][table["order"] == order] for order in orders.tolist()]
+    kind = "order" if "order" in table else "branching_order"
+    orders = np.unique(table[kind])
+    steps = [table["step"][table[kind] == order] for order in orders.tolist()]
     return {
-        "order": orders,
+        kind: orders,
         "veins": np.array([len(each) for each in steps], dtype=np.int64),
         "first": np.array([each.min() for each in steps], dtype=np.int64),
         "median": np.array([np.median(each) for each in steps], dtype=np.float64),
         "last": np.array([each.max() for each in steps], dtype=np.int64),
     }
+
+
+def _lowest(veins: Veins, orders: NDArray) -> NDArray:
+    """Give the lowest known order in the vein that begins with each node, -1 for none."""
+    unknown = np.iinfo(orders.dtype).max
+    found = np.full(len(orders), unknown, dtype=orders.dtype)
+    np.minimum.at(found, veins.firsts, np.where(orders == NULL, unknown, orders))
+    return np.where(found == unknown, NULL, found)
 
 
 def _carriers(timeline: Recorded, parents: Ids) -> Ids:

@@ -28,7 +28,9 @@ def wilson(hits: int, n: int, z: float = Z95) -> tuple[float, float]:
     share, spread = hits / n, z * z / n
     middle = (share + spread / 2.0) / (1.0 + spread)
     half = z / (1.0 + spread) * sqrt(share * (1.0 - share) / n + spread / (4.0 * n))
-    return max(0.0, middle - half), min(1.0, middle + half)
+    # the ends of rates of 0 and 1 are exact, whatever rounding says
+    low = 0.0 if hits == 0 else max(0.0, middle - half)
+    return low, 1.0 if hits == n else min(1.0, middle + half)
 
 
 def same_rate(hits: int, n: int, other_hits: int, other_n: int) -> float:

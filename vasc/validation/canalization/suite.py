@@ -6,19 +6,22 @@ from typing import Any
 from vasc.domain.tilings import rectangular
 from vasc.errors import RunError
 from vasc.models.transport import FacilitatedDiffusion, PolarTransport
-from vasc.validation.canalization.areoles import areoles
+from vasc.validation.canalization.areoles import AREOLE_PROTOCOLS, areoles
 from vasc.validation.canalization.hit_rates import CLEAR, EXACT, hit_rates
-from vasc.validation.canalization.rates import agreeing_rates
+from vasc.validation.canalization.progress import Counted
+from vasc.validation.canalization.rates import agreeing_rates, same_rate, wilson
 from vasc.validation.canalization.scenarios import TISSUES
 from vasc.validation.canalization.sequential import sequential
 from vasc.validation.canalization.settled import settle
 from vasc.validation.canalization.simultaneous import simultaneous
 from vasc.validation.canalization.two_veins import (
+    BACKGROUNDS,
     CASES,
     COLUMNS,
     FIGURE_PROTOCOLS,
     FIGURE_VEINS,
     ROWS,
+    SCANNED,
     background_scan,
     figure_rows,
     settled_case,
@@ -34,6 +37,9 @@ from vasc.validation.canalization_references import (
     WIDTH_FORMED,
 )
 
+CLEAR_LEAST = 0.99
+"""Share of clear scenarios whose canal reaches the nearest vein at least; on squares 0.991 (566 of
+571) to 0.998 (883 of 885) were measured, on hexagons and Voronoi cells all."""
 FULL = 200
 """Scenarios a row of the full suite."""
 DEFAULT = 20
@@ -74,26 +80,66 @@ def validate_canalization(
         of the experiments, ``hit_rates``, ``sequential``, ``areoles``, ``simultaneous`` and
         ``two_veins``.
     """
+    told = Counted(progress, n_parts(n))
     seeds = range(FIRST_SEED, FIRST_SEED + n)
-    cases = [
+    figure = figure_rows(told)
+    checks = [*_of_figure(figure), *_of_threshold(told), *_of_scheme(told)]
+    rows = hit_rates(rate_cases(n), seeds, progress=told)
+    tables = {
+        "figure": figure,
+        "hit_rates": [row | against_reference(row) for row in rows],
+        "sequential": sequential(range(1, 1 + n_leaves(n)), progress=told),
+        "areoles": areoles(range(1, 1 + max(4, n // 5)), progress=told),
+        "simultaneous": simultaneous(range(1, 1 + n_sets(n)), progress=told),
+        "two_veins": background_scan(range(1, 1 + max(3, n // 4)), progress=told),
+    }
+    checks += [*_of_rates(rows), *_of_trees(tables)]
+    return {"name": "canalization", "n": n, "checks": checks, "tables": tables}
+
+
+def rate_cases(n: int) -> list[tuple[str, str, str]]:
+    """Give tissue, scenario and protocol of each rate; without background in full suites only."""
+    return [
         (one.tissue, one.scenario, one.protocol)
         for one in HIT_RATES
         if one.protocol != "pool" or n >= FULL
     ]
-    figure = figure_rows(progress)
-    checks = [*_of_figure(figure), *_of_threshold(progress), *_of_scheme(progress)]
-    rows = hit_rates(cases, seeds, progress=progress)
-    few = max(2, n // 10)
-    tables = {
-        "figure": figure,
-        "hit_rates": rows,
-        "sequential": sequential(range(1, 1 + max(1, n // 20)), progress=progress),
-        "areoles": areoles(range(1, 1 + max(4, n // 5)), progress=progress),
-        "simultaneous": simultaneous(range(1, 1 + min(8, few)), progress=progress),
-        "two_veins": background_scan(range(1, 1 + max(3, n // 4)), progress=progress),
+
+
+def n_leaves(n: int) -> int:
+    """Give the number of leaves whose canals form one by one."""
+    return max(1, n // 20)
+
+
+def n_sets(n: int) -> int:
+    """Give the number of sets of sources that appear at once."""
+    return min(8, max(2, n // 10))
+
+
+def n_parts(n: int) -> int:
+    """Give the number of parts that the suite tells of: three are of threshold and scheme."""
+    figure = len(TISSUES) * len(FIGURE_PROTOCOLS)
+    scans = len(TISSUES) * len(SCANNED) * len(BACKGROUNDS)
+    places = 2 * len(AREOLE_PROTOCOLS)
+    return figure + 3 + len(rate_cases(n)) + n_leaves(n) + places + n_sets(n) + scans
+
+
+def against_reference(row: dict[str, Any]) -> dict[str, Any]:
+    """Hold a rate against the reference measurement: its 95 % interval, and the p-value.
+
+    Both are samples, so that the same true rate leaves the interval of the reference more
+    often than in one of twenty cases; Fisher's exact test allows for that.
+    """
+    key = (row["tissue"], row["scenario"], row["protocol"])
+    known = next(one for one in HIT_RATES if (one.tissue, one.scenario, one.protocol) == key)
+    low, high = wilson(known.hits, known.n)
+    return {
+        "reference_hits": known.hits,
+        "reference_n": known.n,
+        "reference_low": low,
+        "reference_high": high,
+        "p": same_rate(row["hits"], row["n"], known.hits, known.n),
     }
-    checks += [*_of_rates(rows), *_of_trees(tables)]
-    return {"name": "canalization", "n": n, "checks": checks, "tables": tables}
 
 
 def check(name: str, value: float, low: float, high: float, source: str) -> Check:
@@ -172,13 +218,16 @@ def _of_rates(rows: list[dict[str, Any]]) -> Iterator[Check]:
     exact = [row for row in rows if row["protocol"] == "facilitated"]
     for tissue in TISSUES:
         found = [row for row in exact if row["tissue"] == tissue]
-        # ways over square cells are longer along diagonals: 5 of 571 clear ones were missed
-        limits = {"clear": (CLEAR, 0.98), "exact": (EXACT[tissue], 1.0)}
+        # ways over square cells are longer along diagonals, so that some clear ones are missed
+        limits = {"clear": (CLEAR, CLEAR_LEAST), "exact": (EXACT[tissue], 1.0)}
         for kind, (limit, least) in limits.items():
             if kind == "clear" and EXACT[tissue] >= limit:
                 continue
             hits, n = (sum(row[f"hit_{kind}{end}"] for row in found) for end in ("s", "_n"))
             name = f"{tissue}, facilitated: the same where d/d2 < {limit:.3g} (n = {n})"
+            if kind == "clear":
+                # in few, a single miss is no evidence
+                least = min(least, 1.0 - 1.0 / max(n, 1))
             yield check(name, hits / max(n, 1), least, 1.0, CLAIM)
     for tissue in LATTICES:
         found = [row for row in exact if row["tissue"] == tissue]
