@@ -144,8 +144,9 @@ def memory_of_machine() -> int | None:
 
 
 def free_bytes(output: Path) -> int:
-    """Give the bytes that are free on the disk of a file that may not exist yet."""
-    return shutil.disk_usage(output.absolute().parent)[2]
+    """Give the bytes that are free on the disk of a file, of which nothing need exist yet."""
+    folder = next(folder for folder in output.absolute().parents if folder.is_dir())
+    return shutil.disk_usage(folder)[2]
 
 
 def _spacing(placement: Any) -> float | None:
