@@ -1,5 +1,6 @@
 """What a sweep file may say."""
 
+import math
 from typing import Any, Literal, Self
 
 from pydantic import model_validator
@@ -25,6 +26,9 @@ class Span(Parameters):
             raise ValueError(f"from and to are both {self.low:g}; they must differ")
         if self.scale == "log" and min(self.low, self.high) <= 0.0:
             raise ValueError('scale = "log" needs from and to greater than 0')
+        apart = self.high / self.low if self.scale == "log" else self.high - self.low
+        if not math.isfinite(apart):
+            raise ValueError(f"from {self.low:g} to {self.high:g} is farther than numbers reach")
         return self
 
     def at(self, share: float) -> float | int:
