@@ -6,6 +6,7 @@ import pytest
 from vasc.analysis.topology import count_components, count_cycles, free_ends
 from vasc.config import load, parse_override
 from vasc.config.bundled import bundled_configs
+from vasc.config.expected import expected_size
 from vasc.events import EventKind
 from vasc.experiment import run, verify
 from vasc.network import Origin
@@ -122,6 +123,15 @@ def test_of_two_veins_the_nearer_one_is_reached_on_any_cells(side, kind):
     assert state.rows("nodes", "parent")[2] == (1 if side == "right" else 0)
 
 
+def assert_as_large_as_expected(experiment, summary, path):
+    """What is said of a run before its start is too much, and not far too much."""
+    growth = experiment.parameters.grown(experiment.folder)
+    expected = expected_size(experiment.parameters, growth)
+    assert 0.05 * expected.nodes < summary.nodes < expected.nodes
+    assert 0.05 * expected.sources < summary.sources_placed < expected.sources
+    assert 0.05 * expected.file < path.stat().st_size < expected.file
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", LEAVES)
 def test_the_whole_run_ends_as_it_should(name, tmp_path):
@@ -131,6 +141,7 @@ def test_the_whole_run_ends_as_it_should(name, tmp_path):
     assert summary.stop_reason == "no_sources"
     assert summary.sources_left == 0
     assert validate(path) == []
+    assert_as_large_as_expected(experiment, summary, path)
     with Timeline(path) as timeline:
         frame = timeline.frame()
         network, blade = frame.network, frame.blade

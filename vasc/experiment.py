@@ -10,9 +10,11 @@ import numpy as np
 
 from vasc.analysis.summaries import Summary, summed_up
 from vasc.config import Experiment, experiment_from_record
+from vasc.config.expected import expected_size, refuse_what_no_machine_holds
 from vasc.errors import RunError, TimelineError
 from vasc.events import EventKind, StopReason
 from vasc.models.base import Model
+from vasc.models.colonization import Colonization
 from vasc.simulation import Observer, simulate
 from vasc.state import State
 from vasc.streams import Streams
@@ -38,6 +40,7 @@ def run(
     output: str | Path,
     *,
     force: bool = False,
+    large: bool = False,
     steps: int | None = None,
     observers: Iterable[Observer] = (),
     should_stop: Callable[[], bool] = never,
@@ -52,6 +55,8 @@ def run(
         The timeline to write; it appears once the model stands.
     force : bool
         Replace a file that exists.
+    large : bool
+        Run even what memory or disk are not expected to hold.
     steps : int, optional
         Steps to make at most; the run can be resumed.
     observers : iterable of Observer
@@ -67,15 +72,19 @@ def run(
     Raises
     ------
     OutputError
-        If the file cannot be written, or the disk has no room for a tissue.
+        If the file cannot be written, or the disk is not expected to hold it.
     ConfigError
-        If the blade or a file the config refers to cannot be used.
+        If the blade or a file the config refers to cannot be used, or memory is not
+        expected to hold the run.
     RunError
         If the run cannot go on; the file holds the steps so far.
     """
     started = time.perf_counter()
     parameters = experiment.parameters
     model = experiment.model()
+    if not large and isinstance(model, Colonization):
+        size = expected_size(parameters, model.growth)
+        refuse_what_no_machine_holds(size, Path(output), experiment.label or experiment.name)
     streams = Streams(parameters.seed, parameters.stream_names)
     state = model.initial_state(streams)
     units = parameters.units

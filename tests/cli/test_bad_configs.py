@@ -61,6 +61,7 @@ def test_what_only_geometry_can_tell_is_refused_too(spoilt, part, here, capsys):
 
 
 LONG = 'blade = { shape = "ovate", length = 3000.0 }'
+THIN = "[[0, 0], [1, 1.0], [1.0001, 1.0], [0.0001, 0]]"
 APART = """blade = { points = [[0, 0], [10, 0], [10, 4.4], [20, 4.4], [20, 0], [30, 0], [30, 10],
  [20, 10], [20, 4.45], [10, 4.45], [10, 10], [0, 10]], length = 10.0 }"""
 
@@ -88,6 +89,14 @@ APART = """blade = { points = [[0, 0], [10, 0], [10, 4.4], [20, 4.4], [20, 0], [
             {"veins": "lines = [[[1.0, 1.0]], [[10.0, 10.0], [10.0, 20.0]]]"},
             ["veins.lines[1]", "outside the tissue at (10, 11.25)", "(20.5, 10.5)"],
         ),
+        (
+            {"veins": "lines = [[[1.0, 1.0], [1e300, 10.0]]]"},
+            ["veins.lines[0]", "outside the tissue at (1e+300, 10)"],
+        ),
+        (
+            {"domain": f"blade = {{ points = {THIN}, length = 2e4 }}"},
+            ["domain.blade: fills one part in", "one in 100 at least"],
+        ),
         ({"domain": LONG}, ["domain.blade.length = 3000", "at most 250,000"]),
         (
             {"domain": 'blade = { shape = "ovate", length = 0.5 }'},
@@ -101,6 +110,7 @@ APART = """blade = { points = [[0, 0], [10, 0], [10, 4.4], [20, 4.4], [20, 0], [
     ],
     ids=[
         *("source outside", "source in a vein", "two sources in a cell", "vein outside"),
+        *("vein to far away", "thin"),
         *("too large", "too small", "apart", "seed outside"),
     ],
 )

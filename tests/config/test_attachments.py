@@ -3,8 +3,9 @@
 import pytest
 
 from vasc.config import experiment_from_record, load_text
-from vasc.config.attachments import LARGEST_FILE, missing_files, packed, referenced_files, unpacked
+from vasc.config.attachments import missing_files, packed, referenced_files, unpacked
 from vasc.errors import ConfigError, TimelineError
+from vasc.limits import FILE_BYTES
 
 CONFIG = """kind = "closed"
 [domain]
@@ -108,7 +109,7 @@ def test_a_record_of_another_version_is_told_as_a_config_is():
 
 def test_a_large_file_is_refused(folder):
     with (folder / "a" / "points.csv").open("wb") as file:
-        file.truncate(LARGEST_FILE + 1)
+        file.truncate(FILE_BYTES + 1)
     (line,) = missing_files({"domain": {"file": "a/points.csv"}}, folder)
     assert line == 'domain.file = "a/points.csv": is larger than 20,000,000 bytes'
 

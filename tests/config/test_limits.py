@@ -66,9 +66,9 @@ def problems(**tables):
             "1e+06 pieces",
         ),
         (
-            {"placement": f'kind = "given"\npoints = [[0.0, 5.0]]\nbirths = [{2**31}]'},
-            "placement.births[0] = 2147483648",
-            "at most 2,147,483,647",
+            {"placement": 'kind = "given"\npoints = [[0.0, 5.0]]\nbirths = [1_000_001]'},
+            "placement.births[0] = 1000001",
+            "at most 1,000,000",
         ),
         ({"arrival": "kill_distance = 1e200"}, "arrival.kill_distance = 1e+200", "1e+12"),
     ],

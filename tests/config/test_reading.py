@@ -3,8 +3,9 @@
 import pytest
 
 from vasc.config import load
-from vasc.config.reading import LARGEST_CONFIG, parse, read_text
+from vasc.config.reading import parse, read_text
 from vasc.errors import ConfigError
+from vasc.limits import CONFIG_BYTES
 
 
 def refused(path):
@@ -34,7 +35,7 @@ def test_line_ends_of_windows_are_read(tmp_path):
         (b"a = 1\nb = '\xff'\n", ["line 2, column 6", "0xff", "UTF-8"]),
         ('kind = "closed"'.encode("utf-16"), ["UTF-16", "UTF-8"]),
         (b"\x89HDF\r\n\x1a\n" + b"\0" * 100, ["is a timeline", "vasc resume"]),
-        (b"#" * (LARGEST_CONFIG + 1), ["larger than 1,000,000 bytes"]),
+        (b"#" * (CONFIG_BYTES + 1), ["larger than 1,000,000 bytes"]),
     ],
     ids=["latin-1", "broken", "utf-16", "timeline", "large"],
 )
@@ -48,8 +49,8 @@ def test_a_file_that_is_no_text_is_refused(tmp_path, content, parts):
 
 def test_a_config_of_the_largest_size_is_read(tmp_path):
     path = tmp_path / "a.toml"
-    path.write_bytes(b"#" * LARGEST_CONFIG)
-    assert len(read_text(path)) == LARGEST_CONFIG
+    path.write_bytes(b"#" * CONFIG_BYTES)
+    assert len(read_text(path)) == CONFIG_BYTES
 
 
 def test_a_folder_is_refused(tmp_path):

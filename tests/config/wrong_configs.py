@@ -357,7 +357,7 @@ WRONG = WRONG_TISSUES | {
     "step zero as the last": (
         config(stop="steps = 0"),
         "stop.steps = 0",
-        "of at least 1, in steps",
+        "of at least 1 and of at most 1e+06, in steps",
     ),
     "unknown shape": (
         config(domain='shape = "cordat"\nlength = 20.0'),

@@ -184,7 +184,7 @@ NODES = "id,x,y\n0,0,0\n1,0,1\n2,1,1\n"
         ("id,x,y\n0,inf,0\n", "u,v\n", "t_nodes.csv, row 2: x is 'inf'; it must be a number"),
         ("id,x,y\n0,0,1e99\n", "u,v\n", "t_nodes.csv, row 2: y is '1e99'; it must be a number"),
         ("id,x\n0,0\n", "u,v\n", "t_nodes.csv, row 1: no column y; there is 'id, x'"),
-        ("id,x_px,y_mm\n0,0,0\n", "u,v\n", "units mm, px; all columns must be in one"),
+        ("id,x_px,y_mm\n0,0,0\n", "u,v\n", "units 'mm, px'; all columns must be in one"),
         ("id,x,x_px,y\n0,0,0,0\n", "u,v\n", "columns x, x_px; only one may be x"),
         ("id,x,y\n" + "a" * 300 + ",?,0\n", "u,v\n", "row 2: x is '?'"),
     ],
@@ -300,7 +300,7 @@ class TestFiles:
             read_network(path)
 
     def test_too_large(self, tmp_path, monkeypatch):
-        monkeypatch.setattr("vasc.networks_in.reading.MAX_BYTES", 1000)
+        monkeypatch.setattr("vasc.networks_in.reading.NETWORK_BYTES", 1000)
         path = tmp_path / "a.json.gz"
         for content in (b" " * 5000, gzip.compress(b" " * 5_000_000)):
             path.write_bytes(content)
@@ -308,7 +308,7 @@ class TestFiles:
                 read_network(path)
 
     def test_too_many(self, tmp_path, monkeypatch):
-        monkeypatch.setattr("vasc.networks_in.edges.MAX_ROWS", 3)
+        monkeypatch.setattr("vasc.networks_in.edges.NETWORK_ROWS", 3)
         with pytest.raises(NetworkError, match="more than 3 nodes"):
             read_network(write_tables(tmp_path))
 

@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from vasc.limits import SWEEP_RUNS
 from vasc.streams import spawned_seed
-from vasc.sweeps.parameters import MOST_RUNS, Range, Span, SweepParameters
+from vasc.sweeps.parameters import Range, Span, SweepParameters
 from vasc.sweeps.plan import plan
 
 KEYS = ["arrival.kill_distance", "placement.density", "growth.kind", "stop.steps"]
@@ -99,7 +100,7 @@ def test_few_digits_of_a_logarithmic_range_show():
         ({"axes": {"a.b": []}}, "must be a list of one or more values"),
         ({"draws": 3}, "no key in [random]"),
         ({"axes": {"a": [1]}, "set": {"a": 2}}, "is in two of"),
-        ({"replicates": MOST_RUNS + 1}, "at most 100,000"),
+        ({"replicates": SWEEP_RUNS + 1}, "at most 100,000"),
         ({"axes": {"a": {"from": 1, "to": 1, "num": 3}}}, "must differ"),
         ({"axes": {"a": {"from": 0, "to": 1, "num": 3, "scale": "log"}}}, "greater than 0"),
     ],

@@ -48,6 +48,11 @@ WRONG = {
         '{ from = 1.0, to = 3.0, num = 3, scale = "lin" }',
         ['scale = "lin"', '"linear", "log"'],
     ),
+    "ends that no number is between": (
+        "[1.0, 3.0]",
+        "{ from = -1.7e308, to = 1.7e308, num = 3 }",
+        ["from -1.7e+308 to 1.7e+308", "farther than numbers reach"],
+    ),
     "a logarithm of zero": (
         "[1.0, 3.0]",
         '{ from = 0.0, to = 3.0, num = 3, scale = "log" }',

@@ -12,6 +12,7 @@ from typing import Any, TextIO
 
 import typer
 
+from vasc.cli.printing import printable
 from vasc.errors import ConfigError, VascError
 
 BAD_INPUT = 2
@@ -87,7 +88,8 @@ def complain(line: str) -> None:
     """Write one line to the error output, whatever characters it holds."""
     with suppress(OSError, ValueError):
         encoding = getattr(sys.stderr, "encoding", None) or "utf-8"
-        sys.stderr.write(line.encode(encoding, "backslashreplace").decode(encoding) + "\n")
+        said = printable(line).encode(encoding, "backslashreplace").decode(encoding)
+        sys.stderr.write(f"{said}\n")
         sys.stderr.flush()
 
 

@@ -40,7 +40,22 @@ def shown(value: Any) -> str:
         return f"{value:.6g}"
     if isinstance(value, Mapping):
         return ", ".join(f"{name}: {shown(item)}" for name, item in value.items()) or "-"
-    return str(value)
+    return printable(str(value))
+
+
+def printable(text: str) -> str:
+    r"""Give a text of others on one line, so that no character of it can steer a terminal.
+
+    Examples
+    --------
+    >>> print(printable("leaf\x1b[2J é"))
+    leaf\x1b[2J é
+    """
+    if text.isprintable():
+        return text
+    return "".join(
+        mark if mark.isprintable() else mark.encode("unicode_escape").decode() for mark in text
+    )
 
 
 def file_size(n_bytes: int) -> str:

@@ -41,6 +41,10 @@ def run(
     ] = None,
     no_figure: Annotated[bool, typer.Option("--no-figure", help="Draw no picture.")] = False,
     force: Force = False,
+    large: Annotated[
+        bool,
+        typer.Option("--large", help="Run even what memory or disk are not expected to hold."),
+    ] = False,
     quiet: Quiet = False,
     as_json: AsJson = False,
 ) -> None:
@@ -72,6 +76,7 @@ def run(
             experiment,
             output,
             force=force,
+            large=large,
             steps=steps,
             observers=[*announced, progress],
             should_stop=interrupts.should_stop,

@@ -108,15 +108,15 @@ def in_words_of_the_model(found: dict[str, Any]) -> dict[str, Any]:
 
 def _print(timeline: "Timeline", path: Path) -> None:
     """Write the same for people."""
-    from vasc.cli.printing import file_size, print_pairs
+    from vasc.cli.printing import file_size, print_pairs, printable
     from vasc.cli.summary import reason_of
 
     found = in_words_of_the_model(described(timeline))
     config, events = found.pop("config"), found.pop("events")
     reason = found.pop("stop_reason")
-    typer.echo(f"{path}: {config.get('title') or 'untitled'}")
+    typer.echo(f"{path}: {printable(str(config.get('title') or 'untitled'))}")
     if config.get("reference"):
-        typer.echo(f"after {config['reference']}")
+        typer.echo(f"after {printable(str(config['reference']))}")
     for sentence in found.pop("evidence"):
         typer.echo(f"equations: {sentence}")
     outcome = str(timeline.provenance[-1].get("outcome", "")) if timeline.provenance else ""
@@ -134,11 +134,14 @@ def _print(timeline: "Timeline", path: Path) -> None:
     for session in timeline.provenance:
         software = session.get("software", {})
         typer.echo(
-            f"  {session.get('kind', 'run')} {session.get('started', '')}"
-            f" with vasc {software.get('vasc', '?')}: {session.get('outcome', 'killed')}"
+            printable(
+                f"  {session.get('kind', 'run')} {session.get('started', '')}"
+                f" with vasc {software.get('vasc', '?')}: {session.get('outcome', 'killed')}"
+            )
         )
     typer.echo("\nconfig")
-    typer.echo("".join(f"  {line}\n" for line in timeline.config_toml.splitlines()), nl=False)
+    for line in timeline.config_toml.splitlines():
+        typer.echo(f"  {printable(line)}")
 
 
 def _evidence(config: dict[str, Any]) -> list[str]:

@@ -140,12 +140,12 @@ def _tell_plan(
 
 def _print_plan(loaded: "Sweep", n_there: int, found: "Estimate") -> None:
     """Write the plan for people."""
-    from vasc.cli.printing import file_size, print_pairs, shown
+    from vasc.cli.printing import file_size, print_pairs, printable, shown
     from vasc.cli.sweep_progress import duration
     from vasc.sweeps.plan import axis_values
 
     parameters = loaded.parameters
-    typer.echo(f"{loaded.name}: {parameters.title or 'untitled'}")
+    typer.echo(f"{loaded.name}: {printable(parameters.title) or 'untitled'}")
     varied = {key: _listed(values) for key, values in axis_values(parameters).items()}
     varied |= {
         key: f"at random from {shown(span.low)} to {shown(span.high)}, {span.scale}"

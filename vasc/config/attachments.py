@@ -11,12 +11,10 @@ from typing import Any
 from vasc.config.values import Path as KeyPath
 from vasc.config.values import assignment
 from vasc.errors import ConfigError, TimelineError
+from vasc.limits import FILE_BYTES
 
 FILE_KEY = "file"
 """A key of this name, in any table, names a file, relative to the config's folder."""
-
-LARGEST_FILE = 20_000_000
-"""Bytes a referenced file may have: it travels with every timeline."""
 
 
 def referenced_files(tables: Any, path: KeyPath = ()) -> dict[KeyPath, str]:
@@ -135,8 +133,8 @@ def _problem(folder: Path, name: str) -> str:
             return f"there is no such file in {folder.resolve()}"
         if not path.is_file():
             return "is not a file"
-        if path.stat().st_size > LARGEST_FILE:
-            return f"is larger than {LARGEST_FILE:,} bytes"
+        if path.stat().st_size > FILE_BYTES:
+            return f"is larger than {FILE_BYTES:,} bytes"
         with path.open("rb") as file:
             file.read(1)
     except OSError as error:

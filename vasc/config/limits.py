@@ -7,6 +7,7 @@ bound of its own that a different config would not need.
 from typing import TYPE_CHECKING, Any
 
 from vasc.config.values import assignment
+from vasc.limits import RUN_STEPS
 
 if TYPE_CHECKING:
     from vasc.domain import Blade, BladeParameters
@@ -57,9 +58,6 @@ SHORTEST_PIECE = 0.01
 
 SHORTEST_CUT = 0.1
 """Segment lengths that two stretched segments have together when their corner is cut."""
-
-LAST_BIRTH = 2**31 - 1
-"""The last step that a timeline can hold."""
 
 CELLS_PER_DISTANCE = 4.0
 """Cells along the distance that sources keep from veins, as in :mod:`vasc.kernels.darts`."""
@@ -226,10 +224,10 @@ def _too_late(parameters: "LeafVenation") -> str:
     """Describe the first source that is given for a step no run can record; empty if none is."""
     births = getattr(parameters.placement, "births", None) or []
     for row, step in enumerate(births):
-        if step > LAST_BIRTH:
+        if step > RUN_STEPS:
             return (
                 f"{assignment(('placement', 'births', row), step)}: must be a step of at most"
-                f" {LAST_BIRTH:,}"
+                f" {RUN_STEPS:,}"
             )
     return ""
 

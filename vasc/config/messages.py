@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from vasc.config.allowed import Schema, allowed, choices, kinds, listed, resolved
 from vasc.config.places import ABSENT, Place, find_place
 from vasc.config.values import Path, assignment, dotted, written
+from vasc.limits import NAME_LENGTH
 
 if TYPE_CHECKING:
     from pydantic import ValidationError
@@ -92,7 +93,9 @@ def nearest(word: Any, known: Iterable[str]) -> str:
 
 def _close(word: Any, known: Iterable[str]) -> list[str]:
     """Give the known word most like this one, or none."""
-    return difflib.get_close_matches(str(word), list(known), n=1, cutoff=0.5)
+    if not isinstance(word, str) or len(word) > NAME_LENGTH:
+        return []
+    return difflib.get_close_matches(word, list(known), n=1, cutoff=0.5)
 
 
 def _described(detail: Any, place: Place, tables: dict[str, Any], root: Schema) -> tuple[Path, str]:

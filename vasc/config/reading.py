@@ -6,14 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from vasc.errors import ConfigError
-
-LARGEST_CONFIG = 1_000_000
-"""Bytes a config may have."""
-
-DEEPEST = 32
-"""Levels of tables and lists a config may have."""
+from vasc.limits import CONFIG_BYTES, CONFIG_DEPTH
 
 _HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
+_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')"""
+_LONG_KEY = re.compile(rf"""(?<![\w."'-]){_PART}(?:[ \t]*+\.[ \t]*+{_PART}){{100}}""")
 _PLACE = re.compile(r"\s*\(at (?:line (\d+), column (\d+)|end of document)\)$")
 
 
@@ -39,15 +36,15 @@ def read_text(path: Path) -> str:
         if path.is_dir():
             raise ConfigError(f"{path}: is a folder; a config is a TOML file")
         with path.open("rb") as file:
-            raw = file.read(LARGEST_CONFIG + 1)
+            raw = file.read(CONFIG_BYTES + 1)
     except OSError as error:
         raise ConfigError(f"{path}: cannot be read: {error.strerror or error}") from error
     except ValueError as error:
         raise ConfigError(f"{str(path)!r}: is not the name of a file") from error
     if raw.startswith(_HDF5_SIGNATURE):
         raise ConfigError(f"{path}: is a timeline, not a config; try `vasc resume` or `vasc show`")
-    if len(raw) > LARGEST_CONFIG:
-        raise ConfigError(f"{path}: is larger than {LARGEST_CONFIG:,} bytes, the limit of a config")
+    if len(raw) > CONFIG_BYTES:
+        raise ConfigError(f"{path}: is larger than {CONFIG_BYTES:,} bytes, the limit of a config")
     return _decoded(raw, path)
 
 
@@ -71,6 +68,9 @@ def parse(text: str, name: str) -> dict[str, Any]:
     ConfigError
         If the text is not TOML; the message names line and column.
     """
+    if _LONG_KEY.search(text):
+        # tomllib would take memory for each level of each key
+        raise ConfigError(f"{name}: lists or tables are nested too deeply")
     try:
         tables = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -90,10 +90,10 @@ def refuse_deep(tables: Any, name: str) -> None:
     Raises
     ------
     ConfigError
-        If there are more than ``DEEPEST`` levels.
+        If there are more than ``CONFIG_DEPTH`` levels.
     """
     level = [tables]
-    for _ in range(DEEPEST):
+    for _ in range(CONFIG_DEPTH):
         inside: list[Any] = []
         for value in level:
             if isinstance(value, dict | list):

@@ -1,6 +1,5 @@
 """What a config may say: the parameters of the models, joined by ``kind``."""
 
-import json
 from collections.abc import Mapping
 from functools import cache
 from importlib.metadata import entry_points
@@ -11,7 +10,7 @@ from pydantic import Field, ValidationError, create_model
 from vasc.analysis.widths import WidthParameters
 from vasc.config.messages import problems, unknown_kind
 from vasc.config.places import ABSENT
-from vasc.config.values import Path, unusable_values
+from vasc.config.values import Path, as_json, unusable_values
 from vasc.errors import ConfigError
 from vasc.parameters import Parameters, quantity
 
@@ -119,7 +118,7 @@ def parameters_from(tables: dict[str, Any], known: Models | None = None) -> Para
         if not isinstance(kind, str) or kind not in known:
             found[("kind",)] = unknown_kind(kind, list(known))
             raise ConfigError(_refused(tables, known, found))
-        text = json.dumps(tables, default=str)
+        text = as_json(tables)
         parameters = known[kind].model_validate_json(text, strict=True)
     except ValidationError as error:
         others = frozenset(key for model in known.values() for key in model.model_fields)

@@ -79,6 +79,24 @@ def unusable_values(value: Any, path: Path = ()) -> dict[Path, str]:
     return problems
 
 
+def as_json(value: Any) -> str:
+    """Write tables as JSON for the parameters to check; what no parameter can hold is left out.
+
+    Integers beyond 64 bits become null, which is no number either: Python does not write
+    those of thousands of digits. :func:`unusable_values` describes them.
+    """
+    return json.dumps(_without_huge(value), default=str)
+
+
+def _without_huge(value: Any) -> Any:
+    """Give tables without integers beyond 64 bits."""
+    if isinstance(value, dict):
+        return {key: _without_huge(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_without_huge(item) for item in value]
+    return None if isinstance(value, int) and abs(value) > LARGEST_INTEGER else value
+
+
 def _problem(value: Any) -> str:
     """Say why a single value cannot be used; empty if it can."""
     if isinstance(value, float) and not math.isfinite(value):

@@ -10,9 +10,8 @@ from numpy.typing import ArrayLike
 from vasc.arrays import Points, as_points
 from vasc.domain.rings import distance_to_ring, surrounding, surrounds
 from vasc.errors import OutlineError, ShapeError
+from vasc.limits import OUTLINE_POINTS, OUTLINE_RINGS
 
-MAX_POINTS = 200_000
-MAX_RINGS = 1000
 LARGEST = 1e75
 """Of a coordinate: products of four still have a finite value."""
 ON_MARGIN = 1e-9
@@ -30,8 +29,8 @@ def check_rings(rings: Sequence[ArrayLike]) -> tuple[Points, ...]:
     """
     if len(rings) == 0:
         raise OutlineError("outline: empty; it needs at least 3 points")
-    if len(rings) > MAX_RINGS:
-        raise OutlineError(f"outline: {len(rings)} rings; at most {MAX_RINGS} are allowed")
+    if len(rings) > OUTLINE_RINGS:
+        raise OutlineError(f"outline: {len(rings)} rings; at most {OUTLINE_RINGS} are allowed")
     checked = []
     for k, ring in enumerate(rings):
         name = "outline" if len(rings) == 1 else f"outline: ring {k}"
@@ -42,8 +41,8 @@ def check_rings(rings: Sequence[ArrayLike]) -> tuple[Points, ...]:
         _check_ring(points, name)
         checked.append(points)
     n_points = sum(len(ring) for ring in checked)
-    if n_points > MAX_POINTS:
-        raise OutlineError(f"outline: {n_points:,} points; at most {MAX_POINTS:,} are allowed")
+    if n_points > OUTLINE_POINTS:
+        raise OutlineError(f"outline: {n_points:,} points; at most {OUTLINE_POINTS:,} are allowed")
     return tuple(checked)
 
 

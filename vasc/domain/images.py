@@ -9,14 +9,16 @@ from numpy.typing import NDArray
 
 from vasc.arrays import Points
 from vasc.errors import OutlineError
+from vasc.limits import IMAGE_PIXELS
 
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-MAX_PIXELS = 64_000_000
 FORMATS = ("PNG", "TIFF", "JPEG")
 LEAST_SHARE = 0.01
 """Spots and holes smaller than this share of the largest part are dirt or light veins."""
+LONGEST_REASON = 120
+"""Characters of a reason that a decoder gives."""
 BLUR = 0.7
 """Standard deviation, in pixels, of the blur that takes the stairs off a mask."""
 TOLERANCE = 0.25
@@ -59,7 +61,8 @@ def rings_of_image(content: bytes) -> list[Points]:
             raise
         # a damaged file may make the decoder raise nearly anything
         except Exception as error:
-            raise OutlineError(f"outline: not a PNG, TIFF or JPEG image: {error}") from error
+            reason = " ".join(str(error).split())[:LONGEST_REASON]
+            raise OutlineError(f"outline: not a PNG, TIFF or JPEG image: {reason}") from error
     leaf = _cleaned(_leaf(grey, is_mask))
     # a margin of ground around the image closes the outline of a leaf that touches its border
     ground = np.pad(leaf, 4).astype(np.float64)
@@ -76,9 +79,10 @@ def rings_of_image(content: bytes) -> list[Points]:
 def _of_allowed_size(image: "Image") -> "Image":
     """Give the image back if its header claims a size that can be handled."""
     width, height = image.size
-    if width * height > MAX_PIXELS:
+    if width * height > IMAGE_PIXELS:
         raise OutlineError(
-            f"outline: the image has {width} x {height} pixels; at most {MAX_PIXELS:,} are allowed"
+            f"outline: the image has {width} x {height} pixels;"
+            f" at most {IMAGE_PIXELS:,} are allowed"
         )
     return image
 

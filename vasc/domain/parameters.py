@@ -8,13 +8,14 @@ from pydantic import Field, model_validator
 
 from vasc.arrays import Points
 from vasc.domain.blade import Blade
-from vasc.domain.checks import MAX_POINTS, check_crossings, check_rings, check_seeds
+from vasc.domain.checks import check_crossings, check_rings, check_seeds
 from vasc.domain.normalization import Pair, normalized, rounded, smoothed
 from vasc.domain.readers import read_outline
 from vasc.domain.seeds import SeedRowParameters, lowest_of_parts
 from vasc.domain.shapes import SHAPES, Shape, ShapeName
 from vasc.domain.teeth import TeethParameters
 from vasc.errors import OutlineError
+from vasc.limits import OUTLINE_POINTS
 from vasc.parameters import Parameters, quantity
 
 ONLY_FOR = {
@@ -36,7 +37,7 @@ class BladeParameters(Parameters):
     points: list[Pair] | None = quantity(
         "Corners of the outline, in any unit, y upward.",
         default=None,
-        max_length=MAX_POINTS,
+        max_length=OUTLINE_POINTS,
     )
     file: str | None = quantity(
         "A file with the outline: CSV, GeoJSON, WKT, SVG, or a PNG, TIFF or JPEG mask or scan.",

@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 
 from vasc.arrays import Points
-from vasc.domain.checks import MAX_POINTS, check_crossings, check_rings, closed_ring
+from vasc.domain.checks import check_crossings, check_rings, closed_ring
 from vasc.domain.normalization import Attachment, Tip, counter_clockwise, normalized
 from vasc.errors import OutlineError, ShapeError
+from vasc.limits import FILE_BYTES, FILE_DEPTH, OUTLINE_POINTS
 
-MAX_BYTES = 20_000_000
-MAX_DEPTH = 64
+LONGEST_REASON = 120
+"""Characters of a reason that a library gives: some quote what they read in full."""
 
 
 def read_outline(
@@ -81,11 +82,11 @@ def _bytes_of(path: Path) -> bytes:
     """Read a file, at most the largest size that is allowed."""
     try:
         with path.open("rb") as file:
-            content = file.read(MAX_BYTES + 1)
+            content = file.read(FILE_BYTES + 1)
     except OSError as error:
         raise OutlineError(f"outline: cannot be read: {error.strerror or error}") from error
-    if len(content) > MAX_BYTES:
-        raise OutlineError(f"outline: the file is larger than {MAX_BYTES:,} bytes")
+    if len(content) > FILE_BYTES:
+        raise OutlineError(f"outline: the file is larger than {FILE_BYTES:,} bytes")
     return content
 
 
@@ -126,8 +127,8 @@ def read_csv(content: bytes) -> Outline:
             said = ", ".join(row)[:60]
             raise OutlineError(f"outline: line {number} is '{said}'; it must be x, y") from error
         n_points += 1
-        if n_points > MAX_POINTS:
-            raise OutlineError(f"outline: more than {MAX_POINTS:,} points")
+        if n_points > OUTLINE_POINTS:
+            raise OutlineError(f"outline: more than {OUTLINE_POINTS:,} points")
         rings.setdefault(row[2].strip() if len(row) > 2 else "", []).append((x, y))
     closed = [
         points[:-1] if len(points) > 3 and points[0] == points[-1] else points
@@ -202,8 +203,8 @@ def _xy(ring: Any) -> list[Any]:
     """Give x and y of positions that may have a height, too."""
     if not isinstance(ring, list):
         raise OutlineError("outline: a ring is not a list of positions")
-    if len(ring) > MAX_POINTS:
-        raise OutlineError(f"outline: more than {MAX_POINTS:,} points")
+    if len(ring) > OUTLINE_POINTS:
+        raise OutlineError(f"outline: more than {OUTLINE_POINTS:,} points")
     for position in ring:
         is_pair = isinstance(position, list) and len(position) >= 2
         if not is_pair or not all(type(value) in (int, float) for value in position[:2]):
@@ -223,12 +224,13 @@ def read_wkt(content: bytes) -> Outline:
 
     text = text_of(content).strip()
     _check_depth(text, "(", ")")
-    if text.count(",") > MAX_POINTS + 1000:
-        raise OutlineError(f"outline: more than {MAX_POINTS:,} points")
+    if text.count(",") > OUTLINE_POINTS + 1000:
+        raise OutlineError(f"outline: more than {OUTLINE_POINTS:,} points")
     try:
         geometry = shapely.from_wkt(re.sub(r"^SRID=\d+;", "", text))
     except shapely.GEOSException as error:
-        raise OutlineError(f"outline: not a well-known text: {error}") from error
+        said = " ".join(str(error).split())[:LONGEST_REASON]
+        raise OutlineError(f"outline: not a well-known text: {said}") from error
     rings = []
     for part in shapely.get_parts(shapely.get_parts(geometry)):
         lines = [part.exterior, *part.interiors] if part.geom_type == "Polygon" else [part]
@@ -248,8 +250,8 @@ def _check_depth(text: str, opening: str, closing: str) -> None:
     depth = 0
     for mark in re.findall(f"[{re.escape(opening + closing)}]", text):
         depth += 1 if mark in opening else -1
-        if depth > MAX_DEPTH:
-            raise OutlineError(f"outline: brackets are nested more than {MAX_DEPTH} deep")
+        if depth > FILE_DEPTH:
+            raise OutlineError(f"outline: brackets are nested more than {FILE_DEPTH} deep")
 
 
 def read_svg(content: bytes) -> Outline:

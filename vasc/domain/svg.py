@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vasc.arrays import Points
-from vasc.domain.checks import MAX_POINTS, place, without_repeats
+from vasc.domain.checks import place, without_repeats
 from vasc.errors import OutlineError
+from vasc.limits import FILE_DEPTH, OUTLINE_POINTS
 
-MAX_DEPTH = 64
 CURVE_STEPS = 48
 """Straight pieces that stand for one curve of a path."""
 NOT_DRAWN = {"defs", "symbol", "clipPath", "mask", "pattern", "marker", "metadata"}
@@ -76,8 +76,8 @@ class _Drawing:
     def start(self, tag: str, attributes: Attributes) -> None:
         """Take in an element and, if it is a shape, its outline."""
         name = tag.rpartition(":")[2]
-        if len(self.transforms) > MAX_DEPTH:
-            raise OutlineError(f"outline: elements are nested more than {MAX_DEPTH} deep")
+        if len(self.transforms) > FILE_DEPTH:
+            raise OutlineError(f"outline: elements are nested more than {FILE_DEPTH} deep")
         motion = _after(self.transforms[-1], attributes.get("transform", ""))
         self.transforms.append(motion)
         if self.n_hidden or name in NOT_DRAWN:
@@ -87,8 +87,8 @@ class _Drawing:
             return
         for ring in SHAPE_READERS[name](attributes):
             self.n_points += len(ring)
-            if self.n_points > MAX_POINTS:
-                raise OutlineError(f"outline: more than {MAX_POINTS:,} points")
+            if self.n_points > OUTLINE_POINTS:
+                raise OutlineError(f"outline: more than {OUTLINE_POINTS:,} points")
             x, y = ring[:, 0], ring[:, 1]
             moved = np.stack([a * x + b * y + c for a, b, c in motion], axis=1)
             self.rings.append(without_repeats(moved))
@@ -191,8 +191,8 @@ def _path(attributes: Attributes) -> Iterator[Points]:
     text = attributes.get("d", "").strip()
     if not text or _is_mere_line(attributes, text):
         return
-    if sum(1 for _ in NUMBER.finditer(text)) > 2 * MAX_POINTS:
-        raise OutlineError(f"outline: a path has more than {MAX_POINTS:,} points")
+    if sum(1 for _ in NUMBER.finditer(text)) > 2 * OUTLINE_POINTS:
+        raise OutlineError(f"outline: a path has more than {OUTLINE_POINTS:,} points")
     try:
         segments = parse_path(text)
         points: list[complex] = []
@@ -211,11 +211,13 @@ def _path(attributes: Attributes) -> Iterator[Points]:
                 n_steps = 1 if isinstance(segment, Line) else CURVE_STEPS
                 points += [segment.point(k / n_steps) for k in range(1, n_steps)]
                 points.append(segment.end)
-            if len(points) > MAX_POINTS:
-                raise OutlineError(f"outline: more than {MAX_POINTS:,} points")
+            if len(points) > OUTLINE_POINTS:
+                raise OutlineError(f"outline: more than {OUTLINE_POINTS:,} points")
         yield from _finished(points, is_closed)
     except (ValueError, IndexError, TypeError, AssertionError, ArithmeticError) as error:
-        raise OutlineError(f"outline: path '{text[:40]}' cannot be read: {error}") from error
+        raise OutlineError(
+            f"outline: path '{text[:40]}' cannot be read: {str(error)[:80]}"
+        ) from error
 
 
 def _is_mere_line(attributes: Attributes, text: str) -> bool:

@@ -13,11 +13,13 @@ from vasc.domain.tilings import hexagonal, hexagonal_in, rectangular, rectangula
 from vasc.domain.tissue import Tissue
 from vasc.domain.voronoi import LLOYD, voronoi, voronoi_in
 from vasc.errors import OutlineError
+from vasc.limits import TISSUE_CELLS
 from vasc.parameters import Parameters, quantity
 from vasc.streams import Streams
 
-MOST_CELLS = 250_000
-"""Cells of a tissue: each takes about 5 kB of memory, and up to 60 bytes a step on the disk."""
+MOST_BOX = 100.0
+"""Times its own area that the box around a blade of cells may have."""
+
 STREAM = "tissue"
 """The random numbers that a tissue is drawn from, which its seed alone decides."""
 
@@ -29,10 +31,13 @@ class CellsParameters(Parameters):
         "Cells side by side; at most 250000, also of columns times rows.",
         default=None,
         ge=1,
-        le=MOST_CELLS,
+        le=TISSUE_CELLS,
     )
     rows: int | None = quantity(
-        "Cells one above the other; at most 250000, as columns.", default=None, ge=1, le=MOST_CELLS
+        "Cells one above the other; at most 250000, as columns.",
+        default=None,
+        ge=1,
+        le=TISSUE_CELLS,
     )
     blade: BladeParameters | None = quantity(
         "An outline instead of columns and rows; D is the width of a cell.", default=None
@@ -46,10 +51,10 @@ class CellsParameters(Parameters):
             said = " and ".join(f"'{key}'" for key in given) or "neither"
             raise ValueError(f"{said} given; give either 'columns' and 'rows' or 'blade'")
         n_cells = (self.columns or 1) * (self.rows or 1)
-        if self.blade is None and not 2 <= n_cells <= MOST_CELLS:
+        if self.blade is None and not 2 <= n_cells <= TISSUE_CELLS:
             raise ValueError(
                 f"columns = {self.columns} and rows = {self.rows} make {n_cells:,} cells; a tissue"
-                f" has between 2 and {MOST_CELLS:,}"
+                f" has between 2 and {TISSUE_CELLS:,}"
             )
         return self
 
@@ -86,11 +91,18 @@ class CellsParameters(Parameters):
         except OutlineError as error:
             raise OutlineError(_located(str(error))) from error
         # cells are about 1 in area
-        if blade.area > MOST_CELLS:
+        if blade.area > TISSUE_CELLS:
             raise OutlineError(
                 f"domain.blade.length = {self.blade.length:g}: the tissue would have"
                 f" {blade.area:.3g} cells, more than memory and disk can hold; at most"
-                f" {MOST_CELLS:,} are allowed"
+                f" {TISSUE_CELLS:,} are allowed"
+            )
+        low_x, low_y, high_x, high_y = blade.bounds
+        box = (high_x - low_x) * (high_y - low_y)
+        if box > MOST_BOX * blade.area:
+            raise OutlineError(
+                f"domain.blade: fills one part in {box / blade.area:.3g} of the box around it, in"
+                f" all of which cells are laid; it must fill one in {MOST_BOX:g} at least"
             )
         return blade
 

@@ -2,7 +2,6 @@
 
 from vasc.growth.base import (
     MARGIN_SPACING,
-    MOST_STEPS,
     Deformation,
     Growth,
     Similarity,
@@ -28,7 +27,6 @@ GROWTHS: dict[str, type[Parameters]] = {
 __all__ = [
     "GROWTHS",
     "MARGIN_SPACING",
-    "MOST_STEPS",
     "Deformation",
     "Growth",
     "IsogonicGrowth",

@@ -11,6 +11,7 @@ from vasc import kernels
 from vasc.arrays import Floats, Ids, Points
 from vasc.domain import Blade
 from vasc.errors import ConfigError
+from vasc.limits import RUN_STEPS
 from vasc.vasculature import Vasculature
 
 if TYPE_CHECKING:
@@ -19,9 +20,6 @@ if TYPE_CHECKING:
 
 MARGIN_SPACING = 1.0
 """Greatest distance of neighboring points of a deformed outline, in D."""
-
-MOST_STEPS = 1_000_000
-"""Greatest number of steps that growth may take."""
 
 
 class Growth(ABC):
@@ -262,10 +260,10 @@ def last_step_of(n_steps: float, key: str, value: float) -> int:
     Raises
     ------
     ConfigError
-        If there are more than ``MOST_STEPS``; the message names the key.
+        If there are more than ``RUN_STEPS``; the message names the key.
     """
-    if n_steps > MOST_STEPS:
+    if n_steps > RUN_STEPS:
         raise ConfigError(
-            f"{key} = {value:g}: growth would take {n_steps:.3g} steps; allowed are {MOST_STEPS:,}"
+            f"{key} = {value:g}: growth would take {n_steps:.3g} steps; allowed are {RUN_STEPS:,}"
         )
     return math.ceil(n_steps)

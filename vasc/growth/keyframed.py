@@ -33,7 +33,7 @@ class KeyframedGrowth(Deformation):
     Raises
     ------
     ConfigError
-        If growth would take more than ``MOST_STEPS`` steps, or the surface folds at
+        If growth would take more than ``RUN_STEPS`` steps, or the surface folds at
         some time; the message names the time and the place.
     """
 

@@ -20,7 +20,7 @@ class LinearGrowth(Similarity):
     Raises
     ------
     ConfigError
-        If growth would take more than ``MOST_STEPS`` steps.
+        If growth would take more than ``RUN_STEPS`` steps.
     """
 
     def __init__(self, blade: Blade, final_length: float, length_per_step: float) -> None:

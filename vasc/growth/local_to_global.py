@@ -10,10 +10,11 @@ from pydantic import model_validator
 from vasc.arrays import Floats, Points
 from vasc.domain import Blade
 from vasc.errors import ConfigError
-from vasc.growth.base import MOST_STEPS, Deformation, last_step_of
+from vasc.growth.base import Deformation, last_step_of
 from vasc.growth.margins import MOST_CHECKS, dense, from_base
 from vasc.growth.stretch import N_SAMPLES, AxialStretch, roots, smooth_table
 from vasc.growth.stretch_table import check_table, read_table
+from vasc.limits import RUN_STEPS
 from vasc.parameters import Parameters, quantity
 
 
@@ -46,7 +47,7 @@ class LocalToGlobalGrowth(Deformation):
     ------
     ConfigError
         If the blade has several outlines or none through the attachment, would have to
-        grow for more than ``MOST_STEPS`` steps, or becomes too large.
+        grow for more than ``RUN_STEPS`` steps, or becomes too large.
 
     Notes
     -----
@@ -159,7 +160,7 @@ class LocalToGlobalParameters(Parameters):
         "CSV file with columns height, g_x and g_y, instead of the three lists.", default=None
     )
     steps_per_unit: int = quantity(
-        "Steps in one unit of time.", unit="steps", default=100, ge=1, le=MOST_STEPS
+        "Steps in one unit of time.", unit="steps", default=100, ge=1, le=RUN_STEPS
     )
     end: float = quantity(
         "Time at which growth ends, in units of time.", unit="units of time", gt=0.0

@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vasc.arrays import Points
-from vasc.domain.checks import MAX_POINTS
 from vasc.domain.normalization import counter_clockwise
 from vasc.errors import ConfigError
 from vasc.growth.base import MARGIN_SPACING
+from vasc.limits import OUTLINE_POINTS
 
 MIRROR = np.array([-1.0, 1.0])
 MOST_CHECKS = 1000
@@ -90,7 +90,7 @@ def dense(
     Raises
     ------
     ConfigError
-        If that takes more than ``MAX_POINTS`` points.
+        If that takes more than ``OUTLINE_POINTS`` points.
     """
     rows = np.unique(np.linspace(0, len(steps) - 1, min(MOST_CHECKS, len(steps))).round())
     checked = [steps[int(row)] for row in rows]
@@ -144,7 +144,7 @@ def _parts(line: Points, position: Callable[[Points, int], Points], step: int) -
         offsets = np.diff(position(line, step), axis=0)
         lengths = np.sqrt((offsets * offsets).sum(axis=1))
         n_parts = np.ceil(lengths / (SPACING_KEPT * MARGIN_SPACING))
-    return np.nan_to_num(n_parts, nan=np.inf).clip(1.0, 1.0 + MAX_POINTS).astype(np.int64)
+    return np.nan_to_num(n_parts, nan=np.inf).clip(1.0, 1.0 + OUTLINE_POINTS).astype(np.int64)
 
 
 def _split(
@@ -152,10 +152,10 @@ def _split(
 ) -> tuple[Points, NDArray[np.bool_]]:
     """Split each piece of a line into so many equal parts."""
     n_points = int(n_parts.sum()) + 1
-    if n_points > MAX_POINTS:
+    if n_points > OUTLINE_POINTS:
         raise ConfigError(
             f"growth: the outline would need {n_points:,} points, one every"
-            f" {MARGIN_SPACING:g} D; allowed are {MAX_POINTS:,}"
+            f" {MARGIN_SPACING:g} D; allowed are {OUTLINE_POINTS:,}"
         )
     pieces = np.repeat(np.arange(len(n_parts)), n_parts)
     within = np.arange(len(pieces)) - (np.cumsum(n_parts) - n_parts)[pieces]

@@ -4,6 +4,7 @@ from abc import ABC, abstractmethod
 from typing import Literal, TypeVar
 
 from vasc import kernels
+from vasc.limits import RUN_STEPS
 from vasc.parameters import Parameters, quantity
 from vasc.state import State, Tables
 from vasc.streams import Streams
@@ -62,6 +63,7 @@ class StopParameters(Parameters):
         unit="steps",
         default=None,
         ge=1,
+        le=RUN_STEPS,
     )
 
 

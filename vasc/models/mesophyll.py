@@ -4,7 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from vasc.growth import MOST_STEPS, Growth
+from vasc.growth import Growth
+from vasc.limits import RUN_STEPS
 from vasc.parameters import Parameters, quantity
 
 
@@ -26,7 +27,7 @@ class MesophyllTime(Parameters):
 
     def step(self, growth: Growth) -> int | None:
         """Give the first step at that time or later, None if no run lasts so long."""
-        if self.time > growth.time(MOST_STEPS):
+        if self.time > growth.time(RUN_STEPS):
             return None
         step = max(1, int(self.time / growth.time(1)))
         # a step takes the same time always; the division may be off by rounding

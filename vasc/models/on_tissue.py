@@ -49,7 +49,10 @@ class VeinParameters(Parameters):
             If a line leaves the tissue, or a part of the tissue has no vein.
         """
         for row, line in enumerate(self.lines):
-            points = sampled(np.array(line))
+            corners = np.array(line, dtype=np.float64)
+            # points along a line to somewhere very far would be more than memory holds
+            is_far = np.abs(corners).max() > 10.0 * np.abs(tissue.blade.bounds).max() + 100.0
+            points = corners if is_far else sampled(corners)
             for x, y in points[tissue.are_outside(points)].tolist():
                 low_x, low_y, high_x, high_y = tissue.blade.bounds
                 raise ConfigError(

@@ -6,10 +6,9 @@ from collections.abc import Hashable
 import numpy as np
 
 from vasc.errors import NetworkError
+from vasc.limits import NETWORK_ROWS
 from vasc.real_network import RealNetwork
 
-MAX_ROWS = 5_000_000
-"""Nodes, or edges, at most."""
 LARGEST = 1e12
 """Numbers at most, so that squares and products of lengths stay exact enough."""
 NUMBER = f"a number between -{LARGEST:g} and {LARGEST:g}"
@@ -43,8 +42,8 @@ class Edges:
         """
         if node in self.rows:
             raise self.error(where, f"node {shown(node)} is given twice; a node has one place")
-        if len(self.rows) >= MAX_ROWS:
-            raise self.error(where, f"more than {MAX_ROWS:,} nodes")
+        if len(self.rows) >= NETWORK_ROWS:
+            raise self.error(where, f"more than {NETWORK_ROWS:,} nodes")
         self.rows[node] = len(self.places)
         self.places.append((self._number(x, "x", where), self._number(y, "y", where)))
 
@@ -75,8 +74,8 @@ class Edges:
                 f"the edge between {between} is given twice, first in {self._first[key]};"
                 " give veins that share both ends a node on their way",
             )
-        if len(self.pairs) >= MAX_ROWS:
-            raise self.error(where, f"more than {MAX_ROWS:,} edges")
+        if len(self.pairs) >= NETWORK_ROWS:
+            raise self.error(where, f"more than {NETWORK_ROWS:,} edges")
         self._first[key] = where
         self.pairs.append(pair)
         self.widths.append(self._above_zero(width, "width", where))

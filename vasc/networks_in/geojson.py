@@ -7,10 +7,10 @@ from itertools import pairwise
 from typing import Any
 
 from vasc.errors import NetworkError
+from vasc.limits import NETWORK_DEPTH
 from vasc.networks_in.edges import Edges, shown
 from vasc.real_network import RealNetwork
 
-MAX_DEPTH = 32
 COLLECTIONS = ("FeatureCollection", "GeometryCollection")
 
 Line = tuple[str, Any, Any]
@@ -57,8 +57,8 @@ def _object(name: str, text: str) -> Any:
     depth = 0
     for mark in re.findall(r"[\[{\]}]", text):
         depth += 1 if mark in "[{" else -1
-        if depth > MAX_DEPTH:
-            raise NetworkError(f"{name}: brackets are nested more than {MAX_DEPTH} deep")
+        if depth > NETWORK_DEPTH:
+            raise NetworkError(f"{name}: brackets are nested more than {NETWORK_DEPTH} deep")
     try:
         return json.loads(text)
     except (ValueError, RecursionError) as error:

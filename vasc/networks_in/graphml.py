@@ -3,10 +3,10 @@
 from xml.parsers import expat
 
 from vasc.errors import NetworkError
+from vasc.limits import NETWORK_DEPTH
 from vasc.networks_in.edges import Edges
 from vasc.real_network import RealNetwork
 
-MAX_DEPTH = 32
 MAX_TEXT = 10_000
 """Characters of one value at most."""
 
@@ -79,8 +79,10 @@ class _Reader:
     def start(self, tag: str, attributes: Attributes) -> None:
         """Take in the beginning of an element."""
         self.depth += 1
-        if self.depth > MAX_DEPTH:
-            raise self.found.error(self.where, f"elements are nested more than {MAX_DEPTH} deep")
+        if self.depth > NETWORK_DEPTH:
+            raise self.found.error(
+                self.where, f"elements are nested more than {NETWORK_DEPTH} deep"
+            )
         name = tag.rpartition(":")[2]
         if name == "key":
             named = attributes.get("attr.name", attributes.get("id", ""))

@@ -5,14 +5,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 from vasc.errors import NetworkError
+from vasc.limits import NETWORK_BYTES
 from vasc.networks_in.adjacency import read_adjacency
 from vasc.networks_in.geojson import read_geojson
 from vasc.networks_in.graphml import read_graphml
 from vasc.networks_in.tables import read_tables
 from vasc.real_network import RealNetwork
-
-MAX_BYTES = 500_000_000
-"""Of a file at most, and of what a compressed one holds."""
 
 READERS: dict[str, Callable[[str, str], RealNetwork]] = {
     ".graphml": read_graphml,
@@ -98,13 +96,13 @@ def _text(path: Path) -> str:
     """Read a file, decompressed, at most the largest size that is allowed."""
     try:
         with path.open("rb") as file:
-            content = file.read(MAX_BYTES + 1)
+            content = file.read(NETWORK_BYTES + 1)
     except OSError as error:
         raise NetworkError(f"{path}: cannot be read: {error.strerror or error}") from error
     if content[:2] == b"\x1f\x8b":
         content = _decompressed(path, content)
-    if len(content) > MAX_BYTES:
-        raise NetworkError(f"{path}: larger than {MAX_BYTES:,} bytes")
+    if len(content) > NETWORK_BYTES:
+        raise NetworkError(f"{path}: larger than {NETWORK_BYTES:,} bytes")
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -115,9 +113,9 @@ def _decompressed(path: Path, content: bytes) -> bytes:
     """Decompress a file, and no more of it than is allowed."""
     machine = zlib.decompressobj(wbits=31)
     try:
-        found = machine.decompress(content, MAX_BYTES + 1)
+        found = machine.decompress(content, NETWORK_BYTES + 1)
     except zlib.error as error:
         raise NetworkError(f"{path}: damaged gzip file: {error}") from error
-    if not machine.eof and len(found) <= MAX_BYTES:
+    if not machine.eof and len(found) <= NETWORK_BYTES:
         raise NetworkError(f"{path}: damaged gzip file: it ends too early")
     return found

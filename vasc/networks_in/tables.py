@@ -53,7 +53,7 @@ def read_tables(nodes_name: str, nodes: str, edges_name: str, edges: str) -> Rea
     width, length = (_measure(edges_name, header, name, units) for name in ("width", "length"))
     if len(units) > 1:
         raise NetworkError(
-            f"{edges_name}: units {', '.join(sorted(units))}; all columns must be in one"
+            f"{edges_name}: units {shown(', '.join(sorted(units)))}; all columns must be in one"
         )
     for where, row in rows:
         ends = row[start].strip(), row[end].strip()

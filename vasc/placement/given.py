@@ -10,6 +10,7 @@ from pydantic import model_validator
 from vasc.arrays import Points, Steps, as_points
 from vasc.errors import ConfigError
 from vasc.growth import Growth
+from vasc.limits import RUN_STEPS
 from vasc.parameters import Parameters, quantity
 from vasc.placement.base import Moment, Placement
 from vasc.sources import Cause
@@ -117,9 +118,9 @@ def read_sources(path: Path) -> tuple[Points, Steps]:
         If the file is missing or a row is not made of numbers.
     """
     try:
-        with path.open(newline="", encoding="utf-8") as stream:
+        with path.open(newline="", encoding="utf-8-sig") as stream:
             rows = list(csv.DictReader(stream))
-    except (OSError, UnicodeDecodeError) as error:
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise ConfigError(f"placement.file: cannot read {str(path)!r}: {error}") from error
     points, births = [], []
     for number, row in enumerate(rows, start=2):
@@ -131,8 +132,11 @@ def read_sources(path: Path) -> tuple[Points, Steps]:
                 f"placement.file: line {number} of {str(path)!r} is {row!r:.80}; allowed are"
                 " columns x, y (numbers) and birth (a whole number)"
             ) from error
-        if births[-1] < 1:
-            raise ConfigError(f"placement.file: line {number}: birth {births[-1]} is below 1")
+        if not 1 <= births[-1] <= RUN_STEPS:
+            raise ConfigError(
+                f"placement.file: line {number} of {str(path)!r}: the birth is {births[-1]:.6g};"
+                f" it must be a step from 1 to {RUN_STEPS:,}"
+            )
     if not points:
         raise ConfigError(f"placement.file: {str(path)!r} holds no sources")
     return as_points(points, "placement.file"), np.array(births, dtype=np.int32)

@@ -8,7 +8,7 @@ from pydantic import model_validator
 
 from vasc.arrays import Floats
 from vasc.domain import StemParameters
-from vasc.growth import MOST_STEPS
+from vasc.limits import RUN_STEPS
 from vasc.parameters import Parameters, quantity
 
 
@@ -57,10 +57,10 @@ class PhyllotaxisParameters(Parameters):
         unit="steps",
         default=None,
         ge=1,
-        le=MOST_STEPS,
+        le=RUN_STEPS,
     )
     first_step: int = quantity(
-        "Step of the first primordia.", unit="steps", default=6, ge=1, le=MOST_STEPS
+        "Step of the first primordia.", unit="steps", default=6, ge=1, le=RUN_STEPS
     )
     angle_noise: float = quantity(
         "Standard deviation of each primordium's angle.",
@@ -78,10 +78,10 @@ class PhyllotaxisParameters(Parameters):
         """Refuse primordia so late that no run sees them."""
         n_levels = (self.primordia - 1) // self.per_level
         last = self.first_step + n_levels * (self.plastochron or 1)
-        if last > MOST_STEPS:
+        if last > RUN_STEPS:
             raise ValueError(
                 f"plastochron is {self.plastochron}; the last of {self.primordia} primordia would"
-                f" appear in step {last:,}, and at most {MOST_STEPS:,} steps are allowed"
+                f" appear in step {last:,}, and at most {RUN_STEPS:,} steps are allowed"
             )
         return self
 

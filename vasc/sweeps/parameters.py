@@ -1,13 +1,12 @@
 """What a sweep file may say."""
 
+import math
 from typing import Any, Literal, Self
 
 from pydantic import model_validator
 
+from vasc.limits import SWEEP_RUNS
 from vasc.parameters import Parameters, quantity
-
-MOST_RUNS = 100_000
-"""Runs that a sweep may have: each is a file, and a folder holds no more with ease."""
 
 
 class Span(Parameters):
@@ -27,6 +26,9 @@ class Span(Parameters):
             raise ValueError(f"from and to are both {self.low:g}; they must differ")
         if self.scale == "log" and min(self.low, self.high) <= 0.0:
             raise ValueError('scale = "log" needs from and to greater than 0')
+        apart = self.high / self.low if self.scale == "log" else self.high - self.low
+        if not math.isfinite(apart):
+            raise ValueError(f"from {self.low:g} to {self.high:g} is farther than numbers reach")
         return self
 
     def at(self, share: float) -> float | int:
@@ -92,9 +94,9 @@ class SweepParameters(Parameters):
             if not values:
                 raise ValueError(f'axes."{key}" = []: must be a list of one or more values')
             number *= values.num if isinstance(values, Range) else len(values)
-        if number > MOST_RUNS:
+        if number > SWEEP_RUNS:
             raise ValueError(
                 f"axes, draws and replicates make {number:,} runs; at most "
-                f"{MOST_RUNS:,} are possible"
+                f"{SWEEP_RUNS:,} are possible"
             )
         return self

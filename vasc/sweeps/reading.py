@@ -14,7 +14,7 @@ from vasc.config.bundled import bundled_folder, find_config, find_sweep
 from vasc.config.messages import problems
 from vasc.config.reading import parse, read_text
 from vasc.config.schema import json_schema_of
-from vasc.config.values import assignment, unusable_values, written
+from vasc.config.values import as_json, assignment, unusable_values, written
 from vasc.errors import ConfigError
 from vasc.sweeps.measures import name_problem
 from vasc.sweeps.parameters import SweepParameters
@@ -127,7 +127,7 @@ def _checked(tables: dict[str, Any], label: str) -> SweepParameters:
     found = unusable_values(tables)
     parameters = None
     try:
-        text = json.dumps(tables, default=str)
+        text = as_json(tables)
         parameters = SweepParameters.model_validate_json(text, strict=True)
     except ValidationError as error:
         found = {**problems(error, tables, json_schema_of(SweepParameters)), **found}
