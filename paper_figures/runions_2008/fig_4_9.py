@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from panels import grown, letter, output_of
 
+from vasc.analysis.tissue_units import CONCENTRATIONS
 from vasc.render import TissueStyle, View, draw_tissue, save, scale_of
-from vasc.render.tissue_files import CONCENTRATIONS
 from vasc.state import State
 
 WIDTH, HEIGHT = 7.0, 7.35

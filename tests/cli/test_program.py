@@ -3,7 +3,6 @@
 import os
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -119,16 +118,6 @@ def heavy_modules(arguments, folder=ROOT):
         check=True,
     )
     return ended.stdout.splitlines()[-1].split()[1:]
-
-
-def test_the_help_is_there_at_once():
-    def seconds():
-        begin = time.perf_counter()
-        assert started("--help").returncode == 0
-        return time.perf_counter() - begin
-
-    # the best of three, since other programs may be busy; it takes less than 0.1 s
-    assert min(seconds() for _ in range(3)) < 0.5
 
 
 def test_bad_input_ends_with_2_and_without_a_traceback(tmp_path):

@@ -4,7 +4,6 @@ import json
 import struct
 import tracemalloc
 import zlib
-from time import perf_counter
 
 import numpy as np
 import pytest
@@ -77,14 +76,12 @@ HOSTILE = {
 
 
 @pytest.mark.parametrize("name", HOSTILE)
-def test_a_hostile_file_is_refused_quickly(name, tmp_path):
+def test_a_hostile_file_is_refused(name, tmp_path):
     content, said = HOSTILE[name]
     path = tmp_path / name
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
-    start = perf_counter()
     with pytest.raises(OutlineError) as caught:
         read_outline(path)
-    assert perf_counter() - start < 10.0
     message = str(caught.value)
     assert said in message
     assert "\n" not in message
