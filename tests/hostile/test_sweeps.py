@@ -44,6 +44,11 @@ def planned_or_refused(folder, content):
         json.dumps(sweep.description(), allow_nan=False)
 
 
+@pytest.mark.parametrize("base", ["9" * 300, "a/" * 3000 + "b"])
+def test_a_base_that_is_too_long_for_a_name_is_told_in_a_line(base, tmp_path):
+    planned_or_refused(tmp_path, tomli_w.dumps(SPANS | {"base": base}).encode())
+
+
 @every_tier
 def test_any_values_are_planned_or_refused(n_cases, tmp_path):
     def check(tables):

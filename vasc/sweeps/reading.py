@@ -185,7 +185,9 @@ def _base_of(path: Path, base: str, label: str) -> tuple[Path, bool]:
     try:
         found = beside if beside.is_file() else find_config(base)
     except (ConfigError, OSError, ValueError) as error:
-        reason = str(error).removeprefix(f"{base}: ")
+        # the words of the system repeat the whole path
+        words = getattr(error, "strerror", None) or str(error)
+        reason = words.removeprefix(f"{base}: ")
         raise ConfigError(f"{label}: {assignment(('base',), base)}: {reason}") from error
     return found, found.parent.resolve() == bundled_folder().resolve()
 
