@@ -3,6 +3,7 @@
 import importlib.metadata
 import json
 import platform
+import secrets
 from collections.abc import Iterable, Mapping
 from datetime import UTC, datetime
 from functools import cache
@@ -43,6 +44,7 @@ def begin_session(
     record: dict[str, Any] = {
         "session": session,
         "kind": kind,
+        "identifier": secrets.token_hex(16),
         "started": _now(),
         "software": software(),
         "platform": machine(),

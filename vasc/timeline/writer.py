@@ -32,7 +32,7 @@ from vasc.timeline.layout import (
 )
 from vasc.timeline.pending import FRAME_FIELDS, Pending
 from vasc.timeline.provenance import begin_session, end_session
-from vasc.timeline.salvage import mend
+from vasc.timeline.redo import Durability, undisturbed
 from vasc.timeline.storage import GrowingColumn, Store
 
 BATCH_FRAMES = 64
@@ -44,8 +44,8 @@ BATCH_SECONDS = 1.0
 class Recorder:
     """Records every state it observes; made by :meth:`create` or :meth:`resume`.
 
-    Rows stay in the run's own append-only tables until a batch is committed:
-    rows, flush, the frame counter, flush. Killed at any moment, a run lacks at
+    Rows stay in the run's own append-only tables until a batch is committed, rows and
+    frame counter at once, through the redo log. Killed at any moment, a run lacks at
     most its last batch. As a context manager it commits what was observed also
     when the run fails or is interrupted.
 
@@ -66,12 +66,14 @@ class Recorder:
         found: opening.Found,
         starts: Mapping[str, NDArray[np.int64]],
         session: int,
+        durability: Durability,
     ) -> None:
         self.path = store.path
         self.n_frames = found.n_frames
         self.phases: dict[str, float] = {}
         self._store = store
         self._session = session
+        self._most_frames = 1 if durability == Durability.STRICT else BATCH_FRAMES
         self._was_complete = found.is_complete
         self._is_finished = found.is_complete
         self._records_perceived = found.records_perceived
@@ -107,6 +109,7 @@ class Recorder:
         units: Mapping[str, str | float] | None = None,
         force: bool = False,
         record_perceived: bool = True,
+        durability: Durability = Durability.BATCH,
     ) -> Self:
         """Make a new timeline file, ready to record step 0.
 
@@ -140,6 +143,8 @@ class Recorder:
             Replace a file that exists.
         record_perceived : bool
             Record which nodes each source attracts.
+        durability : Durability
+            What a loss of power may take.
 
         Raises
         ------
@@ -168,19 +173,18 @@ class Recorder:
             stream_names=names,
             units={} if units is None else units,
             first_record=json.dumps(first),
+            durability=durability,
             force=force,
         )
-        store, found, starts, _ = opening.open_to_continue(Path(path))
-        return cls(store, found, starts, session=0)
+        store, found, starts, _ = opening.open_to_continue(Path(path), durability)
+        return cls(store, found, starts, 0, durability)
 
     @classmethod
-    def resume(cls, path: str | Path) -> Self:
+    def resume(cls, path: str | Path, *, durability: Durability = Durability.BATCH) -> Self:
         """Open a timeline to continue it, cut to its committed frames.
 
-        What a killed run wrote and did not commit is dropped, so that the
-        finished file holds the same rows as that of an undisturbed run. If it was
-        killed so that HDF5 can no longer write its file, what is committed is copied
-        to a new one that takes its place, and the provenance says so. The
+        Commits that a killed run left in its log are replayed first. The finished file
+        holds the same rows as that of an undisturbed run. The
         states observed next must share tables filled by ``Timeline.tables``.
 
         Raises
@@ -191,17 +195,18 @@ class Recorder:
         OutputError
             If the file cannot be written.
         """
-        problem = mend(Path(path))
-        store, found, starts, session = opening.open_to_continue(Path(path))
-        try:
-            recorder = cls(store, found, starts, session=session)
-            with store.writing():
-                recorder._cut()
-                begin = begin_session(session, kind="resume", seed=found.seed)
-                recorder._add_record(begin if problem is None else {**begin, "salvaged": problem})
-        except BaseException:
-            store.close()
-            raise
+        place = Path(path)
+        with undisturbed():
+            store, found, starts, session = opening.open_to_continue(place, durability)
+            try:
+                recorder = cls(store, found, starts, session, durability)
+                with store.writing(recorder._kept()):
+                    recorder._cut()
+                    recorder._add_record(begin_session(session, kind="resume", seed=found.seed))
+                    store.commit()
+            except BaseException:
+                store.give_up()
+                raise
         return recorder
 
     def observe(self, state: State, streams: Streams) -> None:
@@ -229,7 +234,7 @@ class Recorder:
         # come too late, the batch goes out now; step 0 always does
         next_age = 2.0 * started - self._latest - self._oldest
         self._latest = started
-        if len(pending) >= BATCH_FRAMES or next_age >= BATCH_SECONDS or state.step == 0:
+        if len(pending) >= self._most_frames or next_age >= BATCH_SECONDS or state.step == 0:
             self._commit()
         self._seconds += time.perf_counter() - started
 
@@ -252,11 +257,12 @@ class Recorder:
             return
         self._is_closed = True
         is_complete = self._is_finished if complete is None else complete
-        try:
-            if not self._is_broken:
-                self._finish(is_complete, outcome or ("complete" if is_complete else "stopped"))
-        finally:
-            self._store.close()
+        with undisturbed():
+            try:
+                if not self._is_broken:
+                    self._finish(is_complete, outcome or ("complete" if is_complete else "stopped"))
+            finally:
+                self._store.give_up()
 
     def __enter__(self) -> Self:
         return self
@@ -302,23 +308,33 @@ class Recorder:
         # An interrupt is no failed write, and the same rows can be written again.
         self._is_broken = True
         try:
-            with self._store.writing():
+            with undisturbed(), self._store.writing(self._kept()):
                 self._write_rows(self._tables, counts[-1].tolist())
                 placed = self._write_places()
                 self._write_fields()
                 self._write_frames(counts)
                 if self._was_complete:
                     self._store.mark(COMPLETE, 0)
-                    self._was_complete = False
-                self._store.flush()
                 self._store.mark(COMMITTED, self.n_frames + len(self._pending))
+                self._store.commit()
+                self._was_complete, self._is_broken = False, False
+                self.n_frames, self._written = (
+                    self.n_frames + len(self._pending),
+                    counts[-1].tolist(),
+                )
+                self._placed, self._pending = placed, []
         except KeyboardInterrupt:
             self._is_broken = False
             raise
-        n_frames, written = self.n_frames + len(self._pending), counts[-1].tolist()
-        # no call in between, so that no interrupt leaves half of this done
-        self._is_broken, self.n_frames, self._written = False, n_frames, written
-        self._placed, self._pending = placed, []
+
+    def _kept(self) -> str:
+        """Say what is kept when the disk takes no more, and how to go on."""
+        if not self.n_frames:
+            return "; no step is kept"
+        return (
+            f"; all steps up to {self.n_frames - 1} are kept, and"
+            f" `vasc resume {self.path}` goes on from there"
+        )
 
     def _write_rows(self, tables: Tables, counts: list[int]) -> None:
         """Write the rows of every table that are new since the last commit."""
@@ -366,23 +382,21 @@ class Recorder:
         """Drop rows that were written and not committed."""
         for name, n_rows in self._committed.items():
             self._columns[name].cut(n_rows)
-        self._store.flush()
 
     def _add_record(self, record: Mapping[str, Any]) -> None:
         """Append a provenance record."""
         column = self._store.column(PROVENANCE)
         rows = np.array([json.dumps(record).encode()], dtype=column.dtype)
         column.write(column.n_rows, rows)
-        self._store.flush()
 
     def _finish(self, is_complete: bool, outcome: str) -> None:
-        """Commit the rest, then the provenance, then the completion mark."""
+        """Commit the rest, then the provenance with the completion mark."""
         started = time.perf_counter()
         self._commit()
         ended = time.perf_counter()
         self.phases["record"] = self._seconds + ended - started
         self.phases["total"] = ended - self._opened
-        with self._store.writing():
+        with self._store.writing(self._kept()):
             self._add_record(
                 end_session(
                     self._session,
@@ -393,3 +407,4 @@ class Recorder:
             )
             if is_complete:
                 self._store.mark(COMPLETE, 1)
+            self._store.close()
