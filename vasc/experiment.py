@@ -10,7 +10,11 @@ import numpy as np
 
 from vasc.analysis.summaries import Summary, summed_up
 from vasc.config import Experiment, experiment_from_record
-from vasc.config.expected import expected_size, refuse_what_no_machine_holds
+from vasc.config.expected import (
+    expected_size,
+    refuse_full_disk,
+    refuse_what_no_machine_holds,
+)
 from vasc.errors import RunError, TimelineError
 from vasc.events import EventKind, StopReason
 from vasc.models.base import Model
@@ -28,6 +32,7 @@ from vasc.timeline.comparison import (
     frame_differences,
     table_differences,
 )
+from vasc.timeline.redo import Durability
 
 
 def never() -> bool:
@@ -82,6 +87,8 @@ def run(
     started = time.perf_counter()
     parameters = experiment.parameters
     model = experiment.model()
+    if not large:
+        refuse_full_disk(Path(output))
     if not large and isinstance(model, Colonization):
         size = expected_size(parameters, model.growth)
         refuse_what_no_machine_holds(size, Path(output), experiment.label or experiment.name)
@@ -104,6 +111,7 @@ def run(
         units=None if units is None else units.model_dump(mode="json"),
         force=force,
         record_perceived=parameters.record.perceived != "none",
+        durability=Durability(parameters.record.durability),
     )
     with recorder:
         observers = [recorder, *observers]
@@ -151,6 +159,7 @@ def resume(
     with Timeline(path) as timeline, repeatable(timeline) as (model, streams):
         reason, is_complete = timeline.stop_reason, timeline.is_complete
         config = timeline.config
+        durability = _durability(config)
         if timeline.n_frames:
             state = model.restore(timeline.tables(), timeline.last_step, streams)
             streams.restore(timeline.stream_words())
@@ -159,7 +168,7 @@ def resume(
         is_begun = timeline.n_frames > 0
     if is_complete:
         return summed_up(Path(path), state, config, started, reason)
-    with Recorder.resume(path) as recorder:
+    with Recorder.resume(path, durability=durability) as recorder:
         if reason is not None:
             # killed after its last step, before the file was marked as complete
             recorder.close(complete=True)
@@ -253,6 +262,13 @@ def _recorded(
     recorder.phases["simulate_and_record"] = time.perf_counter() - prepared
     recorder.close(outcome="interrupted" if is_interrupted else None)
     return summed_up(recorder.path, state, config, started, _stop_reason(state), is_interrupted)
+
+
+def _durability(config: Mapping[str, Any]) -> Durability:
+    """Give what the recorded config says of a loss of power; the default if it says nothing."""
+    recorded = config.get("record")
+    said = recorded.get("durability") if isinstance(recorded, Mapping) else None
+    return Durability(said) if said in list(Durability) else Durability.BATCH
 
 
 def _growth_name(experiment: Experiment) -> str:

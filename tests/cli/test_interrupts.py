@@ -47,7 +47,9 @@ def wait_for_steps(path, n_steps, seconds=60.0):
     raise AssertionError(f"{path} did not get {n_steps} steps")
 
 
-@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(
+    ("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
+)
 def test_a_signal_ends_a_run_that_can_be_resumed(here, number, code):
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
     run = start(here, "run", "leaf.toml", "--no-figure", *LONG, **pipes)

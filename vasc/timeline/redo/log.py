@@ -76,8 +76,8 @@ class Log:
     ----------
     size : int
         Bytes up to the end of the last whole frame.
-    is_old : bool
-        Whether somebody had written to it before.
+    is_used : bool
+        Whether anything was ever written to it.
 
     Raises
     ------
@@ -91,7 +91,7 @@ class Log:
         self.path = path
         self.handle = locks.open_locked(path)
         self.size = 0
-        self.is_old = os.fstat(self.handle).st_size > 0
+        self.is_used = os.fstat(self.handle).st_size > 0
         self._salt = b""
         self._sequence = 0
         self._identity = Identity(0, 0, bytes(32))
@@ -106,7 +106,7 @@ class Log:
 
     def begin(self, identity: Identity, *, durable: bool) -> None:
         """Start anew, as the log of a file."""
-        self._identity = identity
+        self._identity, self.is_used = identity, True
         disk.truncate(self.handle, 0)
         self._write_header()
         if durable:

@@ -66,7 +66,7 @@ class Pager(View):
                 self._pages.size = self._committed_size = frame.after
                 self._waiting.extend(frame.runs)
                 self._n_waiting += 1
-            self._has_log = self._n_waiting > 0 or not self._log.is_old
+            self._has_log = self._n_waiting > 0 or not self._log.is_used
 
     # what h5py calls
 
@@ -166,7 +166,7 @@ class Pager(View):
         if not self._is_released:
             self._is_released = True
             os.close(self._file)
-            self._let_go(remove=self._log is not None and not self._log.is_old)
+            self._let_go(remove=self._log is not None and not self._log.is_used)
 
     def _apply_at_last(self) -> None:
         """Apply all commits, after a while also under the eyes of those who read."""
