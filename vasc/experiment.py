@@ -32,7 +32,7 @@ from vasc.timeline.comparison import (
     frame_differences,
     table_differences,
 )
-from vasc.timeline.redo import Durability
+from vasc.timeline.redo import Durability, settle
 
 
 def never() -> bool:
@@ -167,6 +167,8 @@ def resume(
             state = model.initial_state(streams)
         is_begun = timeline.n_frames > 0
     if is_complete:
+        # killed after its last commit, before its log was removed
+        settle(Path(path))
         return summed_up(Path(path), state, config, started, reason)
     with Recorder.resume(path, durability=durability) as recorder:
         if reason is not None:

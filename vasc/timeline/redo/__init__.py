@@ -10,7 +10,7 @@ from vasc.timeline.redo.disk import DiskError, sync_folder
 from vasc.timeline.redo.durability import Durability
 from vasc.timeline.redo.locks import BusyError, is_being_written
 from vasc.timeline.redo.log import log_of, writer_of
-from vasc.timeline.redo.pager import Pager
+from vasc.timeline.redo.pager import Pager, settle
 from vasc.timeline.redo.signals import undisturbed
 from vasc.timeline.redo.snapshot import Snapshot, steady
 
@@ -22,6 +22,7 @@ __all__ = [
     "Snapshot",
     "is_being_written",
     "log_of",
+    "settle",
     "steady",
     "sync_folder",
     "undisturbed",

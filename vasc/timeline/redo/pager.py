@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 
 from vasc.timeline.redo import disk, locks
-from vasc.timeline.redo.disk import BINARY
+from vasc.timeline.redo.disk import BINARY, DiskError
 from vasc.timeline.redo.durability import BATCH_COMMITS, BATCH_SECONDS, Durability
 from vasc.timeline.redo.log import Identity, Log, log_of
 from vasc.timeline.redo.pages import Pages, Run
@@ -207,6 +207,25 @@ class Pager(View):
             log, self._log = self._log, None
             with contextlib.suppress(FileNotFoundError):
                 log.close(remove=remove)
+
+
+def settle(path: Path) -> None:
+    """Bring a file to what a killed run left in its log; do nothing if a run still writes it.
+
+    Raises
+    ------
+    DiskError
+        If the file cannot be written.
+    """
+    if not log_of(path).exists():
+        return
+    try:
+        pager = Pager(path)
+        pager.release()
+    except locks.BusyError:
+        return
+    except OSError as error:
+        raise DiskError(f"{path}: its log cannot be replayed: {error.strerror or error}") from error
 
 
 def _joined(runs: list[Run]) -> list[Run]:
