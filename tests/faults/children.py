@@ -6,6 +6,7 @@ import os
 import resource
 import signal
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -36,24 +37,20 @@ def run(
     patience: float = 120.0,
 ) -> Ending:
     """Fork, call, and give the JSON value that came of it; end the child by a signal if asked."""
-    read_end, write_end = os.pipe()
-    said_read, said_write = os.pipe()
     sys.stdout.flush()
     sys.stderr.flush()
-    child = os.fork()
-    if not child:
-        os.close(read_end)
-        os.close(said_read)
-        _work(call, write_end, said_write, file_bytes, memory)
-    os.close(write_end)
-    os.close(said_write)
-    if kill_after is not None:
-        time.sleep(kill_after)
-        with contextlib.suppress(ProcessLookupError):
-            os.kill(child, send)
-    status = _wait(child, patience)
-    with open(read_end) as answer, open(said_read, errors="replace") as said:
-        raw, text = answer.read(), said.read()
+    with tempfile.TemporaryFile("w+") as answers, tempfile.TemporaryFile("w+") as said:
+        child = os.fork()
+        if not child:
+            _work(call, answers.fileno(), said.fileno(), file_bytes, memory)
+        if kill_after is not None:
+            time.sleep(kill_after)
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(child, send)
+        status = _wait(child, patience)
+        answers.seek(0)
+        said.seek(0)
+        raw, text = answers.read(), said.read()
     number = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
     return Ending(json.loads(raw) if raw and not number else None, number, text)
 
@@ -77,7 +74,9 @@ def _work(
             found = {"error": type(error).__name__, "text": str(error)}
         sys.stdout.flush()
         sys.stderr.flush()
-        os.write(answers, json.dumps(found).encode())
+        # the limit on the size of files is that of the work, not of the answer
+        with os.fdopen(answers, "w") as file:
+            json.dump(found, file)
     finally:
         os._exit(0)
 

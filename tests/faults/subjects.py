@@ -59,6 +59,7 @@ class Subject:
     toml: str
     whole: dict[str, bytes] = field(default_factory=dict, repr=False)
     n_frames: int = 0
+    folder: Path = Path()
 
     def with_(self, durability: str) -> "Subject":
         """Give the same run with another durability."""

@@ -28,6 +28,7 @@ from vasc.timeline.redo import (
     Pager,
     is_being_written,
     log_of,
+    writer_of,
 )
 
 COMPRESSION = 4
@@ -274,6 +275,13 @@ def reason(error: BaseException) -> str:
     return (str(error).splitlines() or [type(error).__name__])[0]
 
 
+def kept(path: Path, n_frames: int) -> str:
+    """Say what is kept of a run when the disk takes no more, and how to go on."""
+    if not n_frames:
+        return "; no step is kept"
+    return f"; all steps up to {n_frames - 1} are kept, and `vasc resume {path}` goes on from there"
+
+
 def _refusal(path: Path, error: BaseException) -> str:
     """Say why a file cannot be written, and how much room its disk has."""
     with contextlib.suppress(OSError):
@@ -300,7 +308,7 @@ def check_output(path: Path, *, force: bool) -> None:
     if not force:
         raise OutputError(f"{path}: exists already; use --force to replace it")
     if is_being_written(path, log_of(path)):
-        raise OutputError(f"{path}: is being written by another run")
+        raise OutputError(f"{path}: is being written by {writer_of(log_of(path))}")
 
 
 def beside(path: Path) -> Path:

@@ -33,7 +33,7 @@ from vasc.timeline.layout import (
 from vasc.timeline.pending import FRAME_FIELDS, Pending
 from vasc.timeline.provenance import begin_session, end_session
 from vasc.timeline.redo import Durability, undisturbed
-from vasc.timeline.storage import GrowingColumn, Store
+from vasc.timeline.storage import GrowingColumn, Store, kept
 
 BATCH_FRAMES = 64
 """Frames that are committed together at most."""
@@ -183,9 +183,8 @@ class Recorder:
     def resume(cls, path: str | Path, *, durability: Durability = Durability.BATCH) -> Self:
         """Open a timeline to continue it, cut to its committed frames.
 
-        Commits that a killed run left in its log are replayed first. The finished file
-        holds the same rows as that of an undisturbed run. The
-        states observed next must share tables filled by ``Timeline.tables``.
+        Commits that a killed run left in its log are replayed first. The finished file has
+        the rows of an undisturbed run, if states share tables filled by ``Timeline.tables``.
 
         Raises
         ------
@@ -200,7 +199,7 @@ class Recorder:
             store, found, starts, session = opening.open_to_continue(place, durability)
             try:
                 recorder = cls(store, found, starts, session, durability)
-                with store.writing(recorder._kept()):
+                with store.writing(kept(recorder.path, recorder.n_frames)):
                     recorder._cut()
                     recorder._add_record(begin_session(session, kind="resume", seed=found.seed))
                     store.commit()
@@ -308,7 +307,7 @@ class Recorder:
         # An interrupt is no failed write, and the same rows can be written again.
         self._is_broken = True
         try:
-            with undisturbed(), self._store.writing(self._kept()):
+            with undisturbed(), self._store.writing(kept(self.path, self.n_frames)):
                 self._write_rows(self._tables, counts[-1].tolist())
                 placed = self._write_places()
                 self._write_fields()
@@ -326,15 +325,6 @@ class Recorder:
         except KeyboardInterrupt:
             self._is_broken = False
             raise
-
-    def _kept(self) -> str:
-        """Say what is kept when the disk takes no more, and how to go on."""
-        if not self.n_frames:
-            return "; no step is kept"
-        return (
-            f"; all steps up to {self.n_frames - 1} are kept, and"
-            f" `vasc resume {self.path}` goes on from there"
-        )
 
     def _write_rows(self, tables: Tables, counts: list[int]) -> None:
         """Write the rows of every table that are new since the last commit."""
@@ -396,7 +386,7 @@ class Recorder:
         ended = time.perf_counter()
         self.phases["record"] = self._seconds + ended - started
         self.phases["total"] = ended - self._opened
-        with self._store.writing(self._kept()):
+        with self._store.writing(kept(self.path, self.n_frames)):
             self._add_record(
                 end_session(
                     self._session,
