@@ -302,7 +302,7 @@ def test_the_wheel_holds_the_package_the_configs_and_the_real_leaf_once(wheel):
     package = {f"vasc/{name}" for name in files_below(ROOT / "vasc")}
     configs = {f"vasc/_configs/{name}" for name in files_below(ROOT / "configs")}
     leaf = {f"vasc/_dalbergia/{name}" for name in files_below(ROOT / "tests/data/dalbergia")}
-    assert wheel == package | configs | leaf
+    assert wheel == package | configs | leaf | {"vasc/CITATION.cff"}
     assert "vasc/_configs/poplar-leaf.toml" in wheel
     assert "vasc/py.typed" in wheel
     assert "vasc/timeline/provenance.schema.json" in wheel
