@@ -28,16 +28,15 @@ def test_networkx_reads_the_graph(timeline, tmp_path):
     assert graph.graph["step"] == found.step
     assert graph.graph["length_unit"] == found.unit.name
     assert graph.graph["title"] == found.title
-    assert set(graph) == set(found.ids.tolist())
+    assert set(graph) == set(own) == set(found.ids.tolist())
     places = [[graph.nodes[node][axis] for axis in found.axes] for node in found.ids.tolist()]
     np.testing.assert_array_equal(places, found.positions)
     assert graph.number_of_edges() == len(found.ends)
     scale = found.unit.per_segment
     for start, end, said in graph.edges(data=True):
         expected = own.edges[start, end]
-        assert {key: said[key] for key in ("id", "birth", "kind")} == {
-            key: expected[key] for key in ("id", "birth", "kind")
-        }
+        for key in ("id", "vein_birth", "segment_birth", "kind"):
+            assert said[key] == expected[key]
         assert said["length"] == pytest.approx(scale * expected["length"])
         assert said["width"] > 0.0
     for node, said in graph.nodes(data=True):
@@ -70,7 +69,8 @@ def test_shapely_reads_the_features(timeline, tmp_path):
     np.testing.assert_array_equal(places, found.positions[found.ends].reshape(-1, len(found.axes)))
     said = [each["properties"] for each in veins]
     assert [each["id"] for each in said] == found.segment_ids.tolist()
-    assert [each["birth"] for each in said] == found.segment_births.tolist()
+    assert [each["vein_birth"] for each in said] == found.vein_births.tolist()
+    assert [each["segment_birth"] for each in said] == found.segment_births.tolist()
     assert [each["kind"] for each in said] == [KINDS[kind] for kind in found.kinds.tolist()]
     assert [each["width"] for each in said] == found.widths.tolist()
     assert [each["source"] for each in said] == found.segment_causes.tolist()

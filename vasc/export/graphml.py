@@ -68,7 +68,8 @@ def edge_columns(specimen: Specimen) -> dict[str, list[Any]]:
     """Give what a file says of each segment, by name."""
     return {
         "id": specimen.segment_ids.tolist(),
-        "birth": specimen.segment_births.tolist(),
+        "vein_birth": specimen.vein_births.tolist(),
+        "segment_birth": specimen.segment_births.tolist(),
         "kind": [KINDS[code] for code in specimen.kinds.tolist()],
         "order": specimen.orders.tolist(),
         "branching_order": specimen.branching_orders.tolist(),
