@@ -69,6 +69,8 @@ class Specimen:
         Widths of the segments.
     rings : tuple of ndarray of shape (k, 2), float64
         The outline, closed implicitly, even-odd rule; none of a stem.
+    blade_length : float or None
+        From the attachment to the tip; None of a stem.
     """
 
     run: str
@@ -94,6 +96,7 @@ class Specimen:
     branching_orders: Ids
     widths: Floats
     rings: tuple[Points, ...]
+    blade_length: float | None
 
     @property
     def axes(self) -> tuple[str, ...]:
@@ -230,4 +233,5 @@ def _cut(timeline: Timeline, frame: Frame, widths: Floats) -> Specimen:
         branching_orders=branch_orders(network, directions=directions),
         widths=np.asarray(widths * unit.per_segment),
         rings=tuple(ring * unit.per_segment for ring in rings),
+        blade_length=float(frame.blade.length * unit.per_segment) if rings else None,
     )
