@@ -152,13 +152,10 @@ def _lineage(timeline: "Timeline") -> dict[str, Any]:
     lineage = timeline.lineage
     births, removed = lineage.fates["birth"], lineage.fates["removed"]
     lives = (removed - births)[removed >= 0]
-    table = lineage.life_table()
-    # the age that half of the sources reach at most (Kaplan and Meier, 1958)
-    ages = table["age"][table["survival"] <= 0.5]
     n_caused = int(np.count_nonzero(lineage.causes >= 0))
     return {
         "source_life_mean": float(lives.mean()) if len(lives) else None,
-        "source_life_median": int(ages[0]) if len(ages) else None,
+        "source_life_median": lineage.median_life().age,
         "sources_unreached": len(births) - len(lives),
         "nodes_per_source": n_caused / len(births) if len(births) else None,
     }
