@@ -137,8 +137,11 @@ def check_leaf(sample: LeafSample) -> list[LeafCheck]:
         "elongation": numbers["areole_elongation_median"],
         "circularity": numbers["areole_circularity_median"],
         "area_cv": numbers["areole_area_cv"],
-        "density_x_sqrt_areole": numbers["density_x_sqrt_areole"],
-        "density_x_distance": numbers["density_x_distance"],
+        # of the enclosed veins: a real network may have none at the margin
+        "density_x_sqrt_areole": numbers["enclosed_density_x_sqrt_areole"],
+        "density_x_distance": _product(
+            numbers["enclosed_vein_density"], numbers["distance_to_vein_mean"]
+        ),
     }
     if sample.has_event is not None:
         key = "ends_with_event" if sample.has_event else "ends_without_event"
@@ -211,6 +214,11 @@ def as_table(checks: list[LeafCheck]) -> list[Table]:
 def _ratio(value: float | None, other: float | None) -> float:
     """Give value / other; nan if one is missing."""
     return value / other if value is not None and other else math.nan
+
+
+def _product(value: float | None, other: float | None) -> float:
+    """Give value * other; nan if one is missing."""
+    return value * other if value is not None and other is not None else math.nan
 
 
 def _less(value: float | None, other: float | None) -> float:

@@ -12,7 +12,7 @@ from vasc.analysis import WidthParameters, find_sections, network_statistics, ru
 from vasc.analysis.junctions import Junctions, find_junctions
 from vasc.analysis.measures import Measured, measure
 from vasc.analysis.topology import free_ends
-from vasc.analysis.vein_distance import distances_to_vein, enclosed_region, places_in
+from vasc.analysis.vein_distance import distances_to_vein, places_in
 from vasc.arrays import Floats
 from vasc.config.bundled import find_config
 from vasc.errors import VascError
@@ -65,10 +65,10 @@ class LeafSample:
 
     @cached_property
     def distances(self) -> Floats:
-        """Distance to the nearest vein from places in the areoles, times the vein density."""
+        """Distance to the nearest vein from places in the areoles, times the density there."""
         sections = self.measured.sections
-        places = places_in(enclosed_region(sections), 20_000)
-        return distances_to_vein(sections, places) * self.numbers["vein_density"]
+        places = places_in(self.measured.region, 20_000)
+        return distances_to_vein(sections, places) * self.measured.enclosed_density
 
     @cached_property
     def n_enclosed_ends(self) -> int:
@@ -77,7 +77,7 @@ class LeafSample:
 
         network = self.leaf.network
         places = network.positions[free_ends(network)]
-        return int(shapely.contains_xy(enclosed_region(self.measured.sections), places).sum())
+        return int(shapely.contains_xy(self.measured.region, places).sum())
 
 
 def sample_of_run(name: str, kind: str, path: Path) -> LeafSample:
