@@ -16,23 +16,21 @@ from vasc.timeline import Timeline
 
 ROOT = Path(__file__).resolve().parents[2]
 PRESETS = {
-    "poplar-leaf": ("growth.final_length=500",),
-    "arabidopsis-first-leaf": ("stop.steps=180",),
-    "stem-golden-1-2": ("placement.primordia=12",),
-    "mitchison-two-sinks-left": (),
+    "poplar-leaf": "growth.final_length=500",
+    "arabidopsis-first-leaf": "stop.steps=180",
+    "stem-golden-1-2": "placement.primordia=12",
+    "mitchison-two-sinks-left": "transport.gain=2e3",
 }
-"""Two leaves, a stem and a tissue, some of them smaller than they come."""
+"""Two leaves, a stem and a tissue, with one value of each changed, mostly for a smaller run."""
 SMALL = "stem-golden-1-2"
 """The preset of the fast tests."""
-SWEEP = """title = "One run"
+SWEEP = """title = "Two runs that differ by seed"
 base = "{base}"
+replicates = 2
 measures = ["summary.nodes"]
 
-[set]
-{values}
-
 [axes]
-"seed" = [1]
+"{key}" = [{value}]
 """
 ONE_THREAD = {
     "PYTHONHASHSEED": "0",
@@ -73,8 +71,8 @@ def vasc(*arguments, cells=(), cwd=None):
 def run(preset, folder, cells=(), *options):
     """Grow a preset; give its timeline."""
     output = folder / f"{preset}.h5"
-    changes = [word for value in PRESETS[preset] for word in ("--set", value)]
-    vasc("run", preset, "-o", output, *changes, *(options or ("--no-figure", "-q")), cells=cells)
+    changes = ("--set", PRESETS[preset], *(options or ("--no-figure", "-q")))
+    vasc("run", preset, "-o", output, *changes, cells=cells)
     return output
 
 
@@ -157,12 +155,16 @@ def test_a_run_is_the_same_when_it_is_resumed_in_the_middle(preset, expected, tm
 @pytest.mark.parametrize("workers", [1, 2])
 @pytest.mark.parametrize("preset", PRESETS)
 def test_a_run_is_the_same_in_a_sweep(preset, workers, expected, tmp_path):
-    pairs = [value.partition("=") for value in PRESETS[preset]]
-    values = "\n".join(f'"{key}" = {value}' for key, _, value in pairs)
-    (tmp_path / "sweep.toml").write_text(SWEEP.format(base=preset, values=values))
+    key, _, value = PRESETS[preset].partition("=")
+    (tmp_path / "sweep.toml").write_text(SWEEP.format(base=preset, key=key, value=value))
     vasc("sweep", tmp_path / "sweep.toml", "-o", tmp_path / "out", "--workers", workers, "-q")
-    (path,) = (tmp_path / "out").rglob("*.h5")
-    assert digest(path) == expected(preset)[0]
+    first, second = sorted((tmp_path / "out").rglob("*.h5"))
+    assert digest(first) != digest(second)
+    for path in (first, second):
+        with Timeline(path) as timeline:
+            seed = timeline.seed
+        again = run(preset, tmp_path, (), "--seed", seed, "--force", "--no-figure", "-q")
+        assert digest(path) == digest(again)
 
 
 @pytest.mark.slow
@@ -175,7 +177,6 @@ def test_a_run_is_the_same_from_an_installed_wheel(preset, installed, expected, 
     )
     assert Path(shown.stdout.strip()).is_relative_to(installed)
     output = tmp_path / "installed.h5"
-    changes = [word for value in PRESETS[preset] for word in ("--set", value)]
-    arguments = ["run", preset, "-o", output, *changes, "--no-figure", "-q"]
+    arguments = ["run", preset, "-o", output, "--set", PRESETS[preset], "--no-figure", "-q"]
     vasc(*arguments, cells=where, cwd=tmp_path)
     assert digest(output) == expected(preset)[0]

@@ -71,7 +71,8 @@ def run(
 
     with Interrupts() as interrupts, ProgressLine(quiet=quiet) as progress:
         load_numba()
-        announced = () if quiet or as_json else (Announcement(experiment, progress),)
+        announcement = Announcement(experiment, progress)
+        announced = () if quiet or as_json else (announcement,)
         summary = experiments.run(
             experiment,
             output,
@@ -80,6 +81,7 @@ def run(
             steps=steps,
             observers=[*announced, progress],
             should_stop=interrupts.should_stop,
+            on_size=announcement.expect,
         )
     end_if_interrupted(summary, interrupts)
     files = [output]
