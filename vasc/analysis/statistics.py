@@ -74,18 +74,24 @@ def network_statistics(real: RealNetwork, *, seed: int = 0) -> Numbers:
     Returns
     -------
     dict
-        As :func:`statistics` gives. There is neither step nor blade; densities refer
-        to the area that the veins enclose.
+        As :func:`statistics` gives. There is neither step nor blade, unless the file was
+        exported from a run; without a blade, densities refer to the area that veins enclose.
     """
+    run = real.run
+    blade = None if run is None else run.blade
     sections = find_sections(real.network, real.widths, real.lengths)
-    measured = measure(sections, None, has_widths=real.widths is not None, seed=seed)
-    numbers = _numbers(
-        real.network,
-        measured,
-        measured.enclosed_area,
-        {"blade_length": None, "blade_area": None},
-    )
-    return {"step": None, "time": None, "length_unit": real.unit or None} | _in_unit(numbers, 1.0)
+    measured = measure(sections, blade, has_widths=real.widths is not None, seed=seed)
+    area = measured.enclosed_area if blade is None else float(blade.area)
+    size = {
+        "blade_length": None if run is None else run.blade_length,
+        "blade_area": None if blade is None else area,
+    }
+    when = {
+        "step": None if run is None else run.step,
+        "time": None if run is None else run.time,
+        "length_unit": real.unit or None,
+    }
+    return when | _in_unit(_numbers(real.network, measured, area, size), 1.0)
 
 
 def _numbers(network: VeinNetwork, measured: Measured, area: float, blade: Numbers) -> Numbers:
@@ -105,11 +111,13 @@ def _numbers(network: VeinNetwork, measured: Measured, area: float, blade: Numbe
         "vein_density": density,
         **measured.areole_numbers(),
         "enclosed_area": measured.enclosed_area,
+        "enclosed_vein_density": measured.enclosed_density,
         "free_ends": ends,
         "free_ends_per_areole": ends / areoles.n_areoles if areoles.n_areoles else math.nan,
         "junction_degree": {str(degree): share for degree, share in degrees.items()},
         **measured.section_numbers(),
         "density_x_sqrt_areole": density * math.sqrt(areoles.mean_area),
+        "enclosed_density_x_sqrt_areole": measured.enclosed_density * math.sqrt(areoles.mean_area),
         **measured.distance_numbers(density),
         **measured.width_numbers(),
     }
@@ -139,6 +147,7 @@ POWERS = {
     "enclosed_area": 2,
     "vein_length": 1,
     "vein_density": -1,
+    "enclosed_vein_density": -1,
     "areole_area_mean": 2,
     "section_length_mean": 1,
     "distance_to_vein_mean": 1,
@@ -149,6 +158,52 @@ POWERS = {
     "length_mean": 1,
 }
 """Power of a length that a number is; all others have no unit."""
+
+ON_TISSUE = {
+    "vein_density",
+    "density_x_sqrt_areole",
+    "distance_to_vein_mean",
+    "distance_to_vein_median",
+    "distance_to_vein_p95",
+    "density_x_distance",
+}
+"""Numbers that refer to the whole blade where there is one, and else to the enclosed area."""
+
+
+SAMPLES = {
+    "areole_area_mean": "areoles",
+    "areole_area_cv": "areoles",
+    "areole_circularity_median": "areoles",
+    "areole_elongation_median": "areoles",
+    "areole_corners_mean": "areoles",
+    "areole_corners_variance": "areoles",
+    "free_ends_per_areole": "areoles",
+    "section_length_mean": "sections",
+    "section_length_cv": "sections",
+    "bohn_residual_median": "bohn_junctions",
+    "bohn_residual_shuffled": "bohn_junctions",
+    "bohn_angle_error_median": "bohn_junctions",
+    "loop_asymmetry": "areoles",
+    "loop_asymmetry_shuffled": "areoles",
+    "loop_asymmetry_weighted": "areoles",
+    "loop_asymmetry_weighted_shuffled": "areoles",
+    "width_mean": "segments",
+}
+"""By a mean or median, the key beside it of how many things it is taken over."""
+
+
+def unit_of(key: str, unit: str) -> str:
+    """Give the unit of a number, where lengths are in a unit; nothing for one without.
+
+    Examples
+    --------
+    >>> unit_of("blade_area", "mm"), unit_of("vein_density", "mm"), unit_of("nodes", "mm")
+    ('mm^2', '1/mm', '')
+    """
+    power = POWERS.get(key, 0)
+    if power == 0 or not unit:
+        return ""
+    return {1: unit, 2: f"{unit}^2", -1: f"1/{unit}"}[power]
 
 
 def _in_unit(numbers: Numbers, scale: float) -> Numbers:

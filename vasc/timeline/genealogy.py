@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from vasc.arrays import NULL, Ids
 from vasc.errors import TimelineError
 from vasc.events import EventKind
-from vasc.network import SegmentKind
 from vasc.timeline.frame import Frame
 
 if TYPE_CHECKING:
@@ -191,20 +190,10 @@ def _found(frame: Frame) -> tuple[Genealogy, Loops]:
 
 def _closures(frame: Frame) -> list[tuple[int, int, int]]:
     """Give each segment that closed a loop, a living piece of it, and the step; newest first."""
-    events = {name: frame.rows("events", name) for name in ("step", "kind", "subject", "object")}
-    alive = frame.network.segment_ids
-    is_cut = events["kind"] == EventKind.SEGMENT_REFINED
-    of_pieces = np.arange(frame.n_rows("segments"), dtype=np.int64)
-    if is_cut.any():
-        cut = np.full(frame.n_rows("nodes"), NULL, dtype=np.int64)
-        cut[events["object"][is_cut]] = events["subject"][is_cut]
-        # a piece was made with the newer of its ends, which halves what it is a piece of
-        before = cut[frame.rows("segments", "nodes").max(axis=1)]
-        is_piece = (before != NULL) & (frame.rows("segments", "kind") == SegmentKind.REFINEMENT)
-        of_pieces[is_piece] = before[is_piece]
-        while (farther := of_pieces[of_pieces] != of_pieces).any():
-            of_pieces[farther] = of_pieces[of_pieces[farther]]
-    rows = dict(zip(of_pieces[alive].tolist()[::-1], range(len(alive) - 1, -1, -1), strict=True))
+    events = {name: frame.rows("events", name) for name in ("step", "kind", "subject")}
+    growths = frame.network.growths
+    alive = frame.network.segment_ids if growths is None else growths.ids
+    rows = dict(zip(alive.tolist()[::-1], range(len(alive) - 1, -1, -1), strict=True))
     closed = np.flatnonzero(events["kind"] == EventKind.LOOP_CLOSED)[::-1]
     pairs = zip(events["subject"][closed].tolist(), events["step"][closed].tolist(), strict=True)
     return [(segment, rows[segment], step) for segment, step in pairs if segment in rows]
