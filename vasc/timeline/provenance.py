@@ -56,7 +56,12 @@ def begin_session(
 
 
 def end_session(
-    session: int, *, outcome: str, last_step: int, wall_seconds: Mapping[str, float]
+    session: int,
+    *,
+    outcome: str,
+    last_step: int,
+    wall_seconds: Mapping[str, float],
+    checksums: Mapping[str, str],
 ) -> dict[str, Any]:
     """Describe how a session ended; merged into its beginning by :func:`sessions`."""
     return {
@@ -65,6 +70,7 @@ def end_session(
         "outcome": outcome,
         "last_step": last_step,
         "wall_seconds": {name: round(seconds, 6) for name, seconds in wall_seconds.items()},
+        "checksums": dict(checksums),
     }
 
 

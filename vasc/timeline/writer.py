@@ -15,7 +15,7 @@ from vasc.domain import Blade, Tissue
 from vasc.errors import TimelineError
 from vasc.state import State, Tables
 from vasc.streams import Streams
-from vasc.timeline import layout, opening
+from vasc.timeline import checksums, layout, opening
 from vasc.timeline.compressed import CompressedColumn
 from vasc.timeline.creation import create_file
 from vasc.timeline.layout import (
@@ -28,9 +28,8 @@ from vasc.timeline.layout import (
     Motion,
     count_column,
     form_of,
-    motion_of,
 )
-from vasc.timeline.pending import FRAME_FIELDS, Pending
+from vasc.timeline.pending import FRAME_FIELDS, Pending, misfit
 from vasc.timeline.provenance import begin_session, end_session
 from vasc.timeline.redo import Durability, undisturbed
 from vasc.timeline.storage import GrowingColumn, Store, kept
@@ -46,8 +45,8 @@ class Recorder:
 
     Rows stay in the run's own append-only tables until a batch is committed, rows and
     frame counter at once, through the redo log. Killed at any moment, a run lacks at
-    most its last batch. As a context manager it commits what was observed also
-    when the run fails or is interrupted.
+    most its last batch. As a context manager it commits what was observed also when
+    the run fails or is interrupted.
 
     Attributes
     ----------
@@ -81,6 +80,10 @@ class Recorder:
         self._written = list(found.counts)
         self._committed = found.committed_rows(starts)
         self._placed = {name: int(rows[-1]) for name, rows in starts.items()}
+        # checksums of what is committed, and of what the next commit adds to it
+        self._sums: dict[str, int] = dict.fromkeys(found.growing_columns, 0)
+        self._next_sums: dict[str, int] = {}
+        self._found = found
         self._columns: dict[str, GrowingColumn | CompressedColumn] = {
             name: store.column(name) for name in found.growing_columns
         }
@@ -199,6 +202,7 @@ class Recorder:
             store, found, starts, session = opening.open_to_continue(place, durability)
             try:
                 recorder = cls(store, found, starts, session, durability)
+                recorder._sums = checksums.to_continue(place, store.file, found, starts)
                 with store.writing(kept(recorder.path, recorder.n_frames)):
                     recorder._cut()
                     recorder._add_record(begin_session(session, kind="resume", seed=found.seed))
@@ -284,17 +288,9 @@ class Recorder:
         if self._is_closed:
             raise TimelineError(f"{self.path}: the recorder is closed")
         expected = self.n_frames + len(self._pending)
-        step, (motion, dimensions, cells) = state.step, self._form
-        if step != expected:
+        if (step := state.step) != expected:
             raise TimelineError(f"{self.path}: step {step} came, step {expected} was expected")
-        if motion_of(state) != motion:
-            problem = f"is {motion_of(state)}, the file is {motion}"
-        elif state.dimensions != dimensions:
-            problem = f"has {state.dimensions} dimensions, the file {dimensions}"
-        else:
-            own = form_of(state)[2]
-            problem = "has {} cells and {} walls, the file {} and {}".format(*own, *cells)
-        raise TimelineError(f"{self.path}: step {step} {problem}")
+        raise TimelineError(f"{self.path}: step {step} {misfit(state, self._form)}")
 
     def _commit(self) -> None:
         """Write the pending frames and their rows; only then the frame counter."""
@@ -303,8 +299,7 @@ class Recorder:
         counts = np.array([frame.counts for frame in self._pending], dtype=np.int64)
         if not self._records_perceived:
             counts[:, list(TABLES).index("perceived")] = 0
-        # broken until done: what HDF5 does after a failed write is not to be trusted.
-        # An interrupt is no failed write, and the same rows can be written again.
+        # broken until done; an interrupt is no failed write, and the rows can be written again
         self._is_broken = True
         try:
             with undisturbed(), self._store.writing(kept(self.path, self.n_frames)):
@@ -317,6 +312,7 @@ class Recorder:
                 self._store.mark(COMMITTED, self.n_frames + len(self._pending))
                 self._store.commit()
                 self._was_complete, self._is_broken = False, False
+                self._sums |= self._next_sums
                 self.n_frames, self._written = (
                     self.n_frames + len(self._pending),
                     counts[-1].tolist(),
@@ -331,9 +327,7 @@ class Recorder:
         for table, start, stop in zip(TABLES, self._written, counts, strict=True):
             if stop > start:
                 for name in TABLES[table]:
-                    self._columns[f"{table}/{name}"].write(
-                        start, tables[table].view(name, start, stop)
-                    )
+                    self._write(f"{table}/{name}", start, tables[table].view(name, start, stop))
 
     def _write_frames(self, counts: NDArray[np.int64]) -> None:
         """Write the pending rows of ``frames``."""
@@ -347,26 +341,30 @@ class Recorder:
             **{count_column(table): counts[:, k] for k, table in enumerate(TABLES)},
         }
         for name, rows in values.items():
-            column = self._columns[f"frames/{name}"]
-            column.write(self.n_frames, np.ascontiguousarray(rows, dtype=column.dtype))
+            self._write(f"frames/{name}", self.n_frames, rows)
 
     def _write_places(self) -> dict[str, int]:
         """Write the explicit positions of the pending frames; the rows there are then."""
         placed = dict(self._placed)
         for name, start in self._placed.items():
-            column = self._columns[f"{MOTION}/{name}"]
             rows = np.concatenate([getattr(frame.places, name) for frame in self._pending])
-            column.write(start, np.ascontiguousarray(rows, dtype=column.dtype))
+            self._write(f"{MOTION}/{name}", start, rows)
             placed[name] = start + len(rows)
         return placed
 
     def _write_fields(self) -> None:
         """Write the fields of the pending frames."""
         for path in (one for one in self._columns if one.startswith(f"{FIELDS}/")):
-            name, column = path.partition("/")[2], self._columns[path]
+            name = path.partition("/")[2]
             rows = np.concatenate([getattr(frame.fields, name) for frame in self._pending])
             start = self.n_frames * (len(rows) // len(self._pending))
-            column.write(start, np.ascontiguousarray(rows, dtype=column.dtype))
+            self._write(path, start, rows)
+
+    def _write(self, name: str, start: int, rows: Any) -> None:
+        """Write rows of a column behind those that are committed."""
+        rows = np.ascontiguousarray(rows, dtype=self._columns[name].dtype)
+        self._columns[name].write(start, rows)
+        self._next_sums[name] = checksums.of_rows(rows, self._sums[name])
 
     def _cut(self) -> None:
         """Drop rows that were written and not committed."""
@@ -387,12 +385,14 @@ class Recorder:
         self.phases["record"] = self._seconds + ended - started
         self.phases["total"] = ended - self._opened
         with self._store.writing(kept(self.path, self.n_frames)):
+            sums = self._sums | checksums.of_fixed(self.path, self._store.file, self._found)
             self._add_record(
                 end_session(
                     self._session,
                     outcome=outcome,
                     last_step=self.n_frames - 1,
                     wall_seconds=self.phases,
+                    checksums=checksums.written(sums),
                 )
             )
             if is_complete:
