@@ -27,8 +27,8 @@ FRAME = struct.Struct("<4sIQQQQ")
 RUN = struct.Struct("<QQ")
 SUM = struct.Struct("<I")
 HEADER_BYTES = HEADER.size + SUM.size
-KEPT_BYTES = 8 << 20
-"""Bytes that a log keeps on the disk to be written again."""
+KEPT_BYTES = 4 << 20
+"""Bytes of a log that are kept although the file holds them."""
 
 
 class Identity(NamedTuple):
@@ -139,11 +139,20 @@ class Log:
         """Bring the log to the disk."""
         disk.sync(self.handle)
 
-    def clear(self) -> None:
-        """Drop all frames, for the file holds them: under a new salt none of them counts."""
+    def clear(self, *, durable: bool) -> None:
+        """Let go of the frames, which the file holds: once they are many, or at once.
+
+        A loss of power may undo this and still keep frames that are written over old ones;
+        what is left of the old ones would take the file back. So a log that is to outlive it
+        grows for a while, and is then begun anew on the disk.
+        """
+        if durable and self.size <= KEPT_BYTES:
+            return
         if self.size > KEPT_BYTES:
             disk.truncate(self.handle, HEADER_BYTES)
         self._write_header()
+        if durable:
+            disk.sync(self.handle)
 
     def _write_header(self) -> None:
         """Say who writes the log from now on, and of which file it is."""

@@ -193,7 +193,7 @@ class Pager(View):
             if self._is_durable:
                 disk.sync(self._file)
             if self._log is not None and self._log.size:
-                self._log.clear()
+                self._log.clear(durable=self._is_durable)
         finally:
             locks.unlock(self._file)
         self._waiting, self._n_waiting = [], 0
