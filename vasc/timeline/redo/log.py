@@ -27,7 +27,7 @@ FRAME = struct.Struct("<4sIQQQQ")
 RUN = struct.Struct("<QQ")
 SUM = struct.Struct("<I")
 HEADER_BYTES = HEADER.size + SUM.size
-KEPT_BYTES = 4 << 20
+KEPT_BYTES = 8 << 20
 """Bytes of a log that are kept although the file holds them."""
 
 

@@ -55,6 +55,8 @@ class Pager(View):
         # runs since the last commit; those of commits that are not in the file yet
         self._fresh: list[Run] = []
         self._waiting: list[Run] = []
+        # runs that are not in the pages: what is written is seldom read before it is applied
+        self._unseen: list[Run] = []
         self._n_waiting = 0
         self._oldest = 0.0
         self._is_released = self._is_broken = False
@@ -76,15 +78,22 @@ class Pager(View):
 
     def write(self, content: memoryview) -> int:  # type: ignore[override]
         """Write to memory."""
-        kept, offset = bytes(content), self._position
-        self._pages.write(offset, kept)
-        self._fresh.append((offset, kept))
-        self._position = offset + len(kept)
-        return len(kept)
+        run = (self._position, bytes(content))
+        self._fresh.append(run)
+        self._unseen.append(run)
+        self._position += len(run[1])
+        self._pages.size = max(self._pages.size, self._position)
+        return len(run[1])
+
+    def readinto(self, target: memoryview) -> int:  # type: ignore[override]
+        """Fill a buffer from the position on."""
+        self._see()
+        return super().readinto(target)
 
     def truncate(self, size: int | None = None) -> int:
         """Give the file in memory a length."""
         size = self._position if size is None else size
+        self._see()
         self._pages.truncate(size)
         return size
 
@@ -199,7 +208,14 @@ class Pager(View):
         self._waiting, self._n_waiting = [], 0
         if not self._fresh:
             self._pages.forget()
+            self._unseen = []
         return True
+
+    def _see(self) -> None:
+        """Bring what was written to the pages, where it is read."""
+        if self._unseen:
+            self._pages.write_runs(self._unseen)
+            self._unseen = []
 
     def _let_go(self, *, remove: bool) -> None:
         """Close the log."""
