@@ -14,7 +14,7 @@ from timeline.synthetic import contents
 from vasc import experiment
 from vasc.config import load_text
 from vasc.timeline import Recorder, Timeline, writer
-from vasc.timeline.redo import log, pager
+from vasc.timeline.redo import pager
 
 LEAF = """
 kind = "closed"
