@@ -194,20 +194,24 @@ def _closures(frame: Frame) -> list[tuple[int, int, int]]:
     events = {name: frame.rows("events", name) for name in ("step", "kind", "subject", "object")}
     alive = frame.network.segment_ids
     is_cut = events["kind"] == EventKind.SEGMENT_REFINED
-    of_pieces = np.arange(frame.n_rows("segments"), dtype=np.int64)
+    pieces = alive.astype(np.int32)
     if is_cut.any():
-        cut = np.full(frame.n_rows("nodes"), NULL, dtype=np.int64)
+        cut = np.full(frame.n_rows("nodes"), NULL, dtype=np.int32)
         cut[events["object"][is_cut]] = events["subject"][is_cut]
         # a piece was made with the newer of its ends, which halves what it is a piece of
         before = cut[frame.rows("segments", "nodes").max(axis=1)]
-        is_piece = (before != NULL) & (frame.rows("segments", "kind") == SegmentKind.REFINEMENT)
-        of_pieces[is_piece] = before[is_piece]
-        while (farther := of_pieces[of_pieces] != of_pieces).any():
-            of_pieces[farther] = of_pieces[of_pieces[farther]]
-    rows = dict(zip(of_pieces[alive].tolist()[::-1], range(len(alive) - 1, -1, -1), strict=True))
+        before[frame.rows("segments", "kind") != SegmentKind.REFINEMENT] = NULL
+        while (is_piece := before[pieces] != NULL).any():
+            pieces = np.where(is_piece, before[pieces], pieces)
+    # the first living piece of each
+    order = np.argsort(pieces, kind="stable")
     closed = np.flatnonzero(events["kind"] == EventKind.LOOP_CLOSED)[::-1]
-    pairs = zip(events["subject"][closed].tolist(), events["step"][closed].tolist(), strict=True)
-    return [(segment, rows[segment], step) for segment, step in pairs if segment in rows]
+    segments, steps = events["subject"][closed], events["step"][closed]
+    places = np.searchsorted(pieces[order], segments)
+    rows = order[np.minimum(places, max(len(order) - 1, 0))] if len(order) else places
+    is_alive = pieces[rows] == segments if len(order) else np.zeros(len(rows), dtype=bool)
+    found = (values[is_alive].tolist() for values in (segments, rows, steps))
+    return list(zip(*found, strict=True))
 
 
 class _Merged:
