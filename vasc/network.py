@@ -47,6 +47,28 @@ SEGMENT_COLUMNS = {
 
 
 @dataclass(frozen=True)
+class Growths:
+    """The growth event that made the vein in each of some segments.
+
+    Parameters
+    ----------
+    ids : ndarray of shape (m,), int32
+        The segment that grew there: the segment itself, unless refinement made it.
+    nodes : ndarray of shape (m,), int32
+        The newer node of that segment.
+    births : ndarray of shape (m,), int32
+        The step in which it grew.
+    causes : ndarray of shape (m,), int32
+        The source that caused it, -1 if none.
+    """
+
+    ids: Ids
+    nodes: Ids
+    births: Steps
+    causes: Ids
+
+
+@dataclass(frozen=True)
 class VeinNetwork:
     """A vein network at one step: every node, and the segments alive then.
 
@@ -70,6 +92,9 @@ class VeinNetwork:
         Values of :class:`SegmentKind`.
     retired : ndarray of shape (r,), int32
         Ids of nodes that refinement has replaced: they are in no segment any more.
+    growths : Growths or None
+        The growth event behind each segment; None where none is known, as in a real
+        leaf.
     """
 
     positions: Points
@@ -82,6 +107,10 @@ class VeinNetwork:
     segment_births: Steps
     segment_kinds: Codes
     retired: Ids = field(default_factory=lambda: np.empty(0, dtype=np.int32))
+    growths: Growths | None = None
+
+    def __repr__(self) -> str:
+        return f"VeinNetwork(nodes={self.n_vein_nodes}, segments={self.n_segments})"
 
     def _repr_html_(self) -> str:
         """Show a small picture in a notebook."""
@@ -91,6 +120,11 @@ class VeinNetwork:
             "vein length": lambda: f"{float(self.lengths.sum()):.4g}",
         }
         return card("VeinNetwork", facts, lambda: picture_of(self.positions, self.segments))
+
+    @property
+    def vein_births(self) -> Steps:
+        """Step in which the vein in each segment grew, shape (m,), int32."""
+        return self.segment_births if self.growths is None else self.growths.births
 
     @property
     def n_nodes(self) -> int:

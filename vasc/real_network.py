@@ -1,12 +1,38 @@
 """A vein network that was measured, not simulated: nodes, veins, and their widths."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vasc.arrays import NULL, Floats, Points
 from vasc.network import Origin, SegmentKind, VeinNetwork
+
+if TYPE_CHECKING:
+    from shapely import Geometry
+
+
+@dataclass(frozen=True)
+class ExportedRun:
+    """What the file of a network tells that was exported from a recorded run.
+
+    Parameters
+    ----------
+    step : int
+        The step exported.
+    time : float
+        Its model time.
+    blade : shapely.Geometry or None
+        The blade, in the unit of the file; None if it is not told.
+    blade_length : float or None
+        From the attachment to the tip.
+    """
+
+    step: int
+    time: float
+    blade: "Geometry | None"
+    blade_length: float | None
 
 
 @dataclass(frozen=True)
@@ -24,12 +50,15 @@ class RealNetwork:
         where a file says nothing, the straight ones.
     unit : str
         Unit of length, as ``"px"``; empty if the file does not say.
+    run : ExportedRun or None
+        What an export of a run tells besides; None of a leaf that was measured.
     """
 
     network: VeinNetwork
     widths: Floats | None
     lengths: Floats
     unit: str = ""
+    run: ExportedRun | None = None
 
     @classmethod
     def from_edges(

@@ -15,6 +15,7 @@ from vasc.domain.tissue import Tissue
 from vasc.events import EVENT_COLUMNS, EventKind
 from vasc.fields import Fields
 from vasc.network import NODE_COLUMNS, SEGMENT_COLUMNS, VeinNetwork
+from vasc.pieces import growths_of
 from vasc.sources import PERCEIVED_COLUMNS, SOURCE_COLUMNS, SourceSet
 from vasc.states import STATE_COLUMNS, Kind, SourceState
 
@@ -271,6 +272,7 @@ def network_from_columns(
         segment_births=segments["birth"][ids],
         segment_kinds=segments["kind"][ids],
         retired=events["subject"][events["kind"] == EventKind.NODE_RETIRED],
+        growths=growths_of(ids, nodes, segments, events),
     )
 
 

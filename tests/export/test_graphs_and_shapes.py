@@ -10,12 +10,15 @@ import pytest
 import shapely
 from svg.path import parse_path
 
+from vasc.cli.compare import flattened
+from vasc.cli.stats import measured
 from vasc.domain.readers import read_outline
 from vasc.domain.svg import rings_of_drawing
-from vasc.errors import VascError
+from vasc.errors import NetworkError, VascError
 from vasc.export import export, specimen
 from vasc.export.drawing import lines_of
 from vasc.export.specimen import KINDS
+from vasc.networks_in import read_network
 from vasc.timeline import Timeline
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -28,16 +31,15 @@ def test_networkx_reads_the_graph(timeline, tmp_path):
     assert graph.graph["step"] == found.step
     assert graph.graph["length_unit"] == found.unit.name
     assert graph.graph["title"] == found.title
-    assert set(graph) == set(found.ids.tolist())
+    assert set(graph) == set(own) == set(found.ids.tolist())
     places = [[graph.nodes[node][axis] for axis in found.axes] for node in found.ids.tolist()]
     np.testing.assert_array_equal(places, found.positions)
     assert graph.number_of_edges() == len(found.ends)
     scale = found.unit.per_segment
     for start, end, said in graph.edges(data=True):
         expected = own.edges[start, end]
-        assert {key: said[key] for key in ("id", "birth", "kind")} == {
-            key: expected[key] for key in ("id", "birth", "kind")
-        }
+        for key in ("id", "vein_birth", "segment_birth", "kind"):
+            assert said[key] == expected[key]
         assert said["length"] == pytest.approx(scale * expected["length"])
         assert said["width"] > 0.0
     for node, said in graph.nodes(data=True):
@@ -70,7 +72,8 @@ def test_shapely_reads_the_features(timeline, tmp_path):
     np.testing.assert_array_equal(places, found.positions[found.ends].reshape(-1, len(found.axes)))
     said = [each["properties"] for each in veins]
     assert [each["id"] for each in said] == found.segment_ids.tolist()
-    assert [each["birth"] for each in said] == found.segment_births.tolist()
+    assert [each["vein_birth"] for each in said] == found.vein_births.tolist()
+    assert [each["segment_birth"] for each in said] == found.segment_births.tolist()
     assert [each["kind"] for each in said] == [KINDS[kind] for kind in found.kinds.tolist()]
     assert [each["width"] for each in said] == found.widths.tolist()
     assert [each["source"] for each in said] == found.segment_causes.tolist()
@@ -175,7 +178,7 @@ def test_a_stem_is_not_drawn_flat(runs, tmp_path):
 def test_holes_of_an_outline_stay_holes(runs):
     from dataclasses import replace
 
-    from vasc.export.shapes import outline_of
+    from vasc.export.outlines import outline_of
 
     with Timeline(runs.open) as timeline:
         found = specimen(timeline)
@@ -189,3 +192,41 @@ def test_holes_of_an_outline_stay_holes(runs):
 def test_numbers_in_a_drawing_are_plain(leaf, tmp_path):
     text = export(leaf, tmp_path / "a.svg").read_text()
     assert not re.search(r"nan|inf", text.partition("</desc>")[2])
+
+
+@pytest.mark.parametrize("name", ["closed", "open", "areoles"])
+def test_statistics_of_the_file_are_those_of_the_run(runs, tmp_path, name):
+    path = getattr(runs, name)
+    file = export(path, tmp_path / "a.graphml")
+    run, exported = (dict(flattened(measured(each, -1, 0))) for each in (path, file))
+    # of veins of equal width the one first met is taken first, in streams and hierarchies
+    tied = {key for key in run if re.match("strahler|horton|loop_asymmetry|bohn.*shuffled", key)}
+    assert run.keys() - tied == exported.keys() - tied
+    assert not {key for key in run if key not in tied and exported[key] != approx(run[key])}
+
+
+def approx(value):
+    return pytest.approx(value, rel=1e-9) if isinstance(value, float) else value
+
+
+def test_a_stem_is_not_measured_as_if_it_were_flat(runs, tmp_path):
+    with pytest.raises(NetworkError, match="nodes differ in z; veins must lie in a plane"):
+        read_network(export(runs.stem, tmp_path / "a.graphml"))
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "said"),
+    [
+        ("length_unit", "a\x85m", "length_unit is"),
+        ("step", "one", "step is 'one'; it must be a number"),
+        ("blade_length", "nan", "blade_length is 'nan'; it must be a number"),
+        ("outline", "POINT (0 0)", "outline is 'POINT .0 0.'; it must be a POLYGON"),
+        ("outline", "a leaf", "outline is 'a leaf'; it must be a POLYGON"),
+    ],
+)
+def test_exports_that_were_changed_are_refused(runs, tmp_path, key, value, said):
+    file = export(runs.closed, tmp_path / "a.graphml")
+    found = re.sub(f'(<data key="graph_{key}">)[^<]*', rf"\g<1>{value}", file.read_text())
+    file.write_text(found)
+    with pytest.raises(NetworkError, match=said):
+        read_network(file)

@@ -3,10 +3,15 @@
 import numpy as np
 import pytest
 
+from vasc.analysis import statistics
 from vasc.analysis.elongation import Elongation
 from vasc.analysis.widths import WidthParameters, segment_radii
+from vasc.cli.show import described
+from vasc.events import EventKind
 from vasc.export import specimen
 from vasc.export.specimen import specimens
+from vasc.network import SegmentKind
+from vasc.pieces import growths_of
 from vasc.timeline import Timeline
 
 
@@ -69,3 +74,70 @@ def test_the_outline_is_that_of_the_step(runs):
     assert np.ptp(small.rings[0], axis=0)[1] == pytest.approx(80.0)
     with Timeline(runs.stem) as timeline:
         assert specimen(timeline).rings == ()
+
+
+@pytest.mark.parametrize("name", ["closed", "areoles"])
+def test_pieces_have_the_source_and_the_birth_of_what_grew_there(runs, name):
+    # halved segments in one run, cut corners in the other: the chain of cuts is followed by hand
+    with Timeline(getattr(runs, name)) as timeline:
+        found, events = specimen(timeline), timeline.events
+        ends, births = timeline.table("segments", "nodes"), timeline.table("segments", "birth")
+        kinds, sources = timeline.table("segments", "kind"), timeline.table("nodes", "source")
+        parents = timeline.table("nodes", "parent")
+    is_cut = events["kind"] == EventKind.SEGMENT_REFINED
+    objects = events["object"][is_cut].tolist()
+    replaced = dict(zip(objects, events["subject"][is_cut].tolist(), strict=True))
+    is_join = events["kind"] == EventKind.VEIN_JOINED
+    subjects = events["subject"][is_join].tolist()
+    met = dict(zip(subjects, events["object"][is_join].tolist(), strict=True))
+    n_pieces = 0
+    rows = zip(found.segment_ids, found.vein_births, found.segment_causes, strict=True)
+    for segment, birth, cause in rows:
+        while kinds[segment] == SegmentKind.REFINEMENT:
+            first, second = ends[segment].tolist()
+            is_corner = parents[first] == parents[second] and {first, second} <= set(replaced)
+            segment = replaced[first if is_corner else max(first, second)]
+            n_pieces += 1
+        assert birth == births[segment]
+        assert cause == met.get(segment, sources[ends[segment, 1]])
+    assert n_pieces > 20
+    assert (found.vein_births <= found.segment_births).all()
+
+
+def test_a_chain_of_cut_corners_keeps_the_source_of_every_node():
+    # 0-1-2-3, caused by sources 10, 11 and 12; the corners at 1 and 2 are cut: 4 5 and 6 7
+    nodes = {
+        "parent": np.array([-1, 0, 1, 2, 1, 1, 2, 2]),
+        "source": np.array([-1, 10, 11, 12, 10, 10, 11, 11]),
+    }
+    ends = [(0, 1), (1, 2), (2, 3), (0, 4), (4, 5), (5, 2), (5, 6), (6, 7), (7, 3)]
+    segments = {
+        "nodes": np.array(ends),
+        "birth": np.array([1, 2, 3, 9, 9, 9, 9, 9, 9]),
+        "kind": np.array([0, 0, 0, 2, 2, 2, 2, 2, 2]),
+    }
+    events = {
+        "kind": np.full(4, EventKind.SEGMENT_REFINED),
+        "subject": np.array([0, 1, 5, 2]),
+        "object": np.array([4, 5, 6, 7]),
+    }
+    found = growths_of(np.array([3, 4, 6, 7, 8]), nodes, segments, events)
+    assert found.ids.tolist() == [0, 0, 1, 1, 2]
+    assert found.causes.tolist() == [10, 10, 11, 11, 12]
+    assert found.births.tolist() == [1, 1, 2, 2, 3]
+
+
+def test_nodes_are_counted_in_one_way(runs):
+    with Timeline(runs.areoles) as timeline:
+        frame = timeline.frame()
+        assert len(frame.network.retired)
+        n_nodes = len(specimen(timeline).ids)
+        assert frame.network.n_vein_nodes == n_nodes
+        assert described(timeline)["nodes"] == statistics(frame)["nodes"] == n_nodes
+        assert frame.to_networkx().number_of_nodes() == n_nodes
+        assert repr(frame).endswith(f"nodes={n_nodes})")
+        assert repr(frame.network).startswith(f"VeinNetwork(nodes={n_nodes}, segments=")
+        for shown in (timeline, frame, frame.network):
+            assert f"<th>nodes</th><td>{n_nodes:,}</td>" in shown._repr_html_()
+        assert repr(timeline.lineage) == f"Lineage({str(runs.areoles)!r})"
+        assert "<th>last step</th><td>150</td>" in timeline.lineage._repr_html_()

@@ -87,8 +87,9 @@ def test_every_column_is_described(timeline, tmp_path):
         described = table["tableSchema"]["columns"]
         assert [column["name"] for column in described] == header
         assert all(column["dc:description"] for column in described)
-        in_length = {column["name"] for column in described if "unit" in column}
-        assert {column["unit"] for column in described if "unit" in column} <= {found.unit.name}
+        units = {column["name"]: column["unit"] for column in described if "unit" in column}
+        assert set(units.values()) <= {found.unit.name, "steps"}
+        in_length = {name for name, unit in units.items() if unit == found.unit.name}
         if table["url"] == "nodes.csv":
             assert in_length >= {"x", "y", "radius", "position_x", "material_y"}
             assert "birth" not in in_length
@@ -117,3 +118,22 @@ def test_data_frames_need_pandas(runs, monkeypatch):
         pytest.raises(VascError, match=r"vasc\[tables\]"),
     ):
         data_frames(timeline)
+
+
+def test_what_is_in_every_cell_is_described(timeline, tmp_path):
+    folder = export(timeline, tmp_path / "a.csv")
+    for table in json.loads((folder / DESCRIPTION).read_text())["tables"]:
+        read_table = pd.read_csv(folder / table["url"], keep_default_na=False, dtype=str)
+        for column in table["tableSchema"]["columns"]:
+            cells = set(read_table[column["name"]])
+            if column.get("datatype"):
+                assert cells <= set(column["datatype"]["format"].split("|"))
+            else:
+                # numbers, and no word but what stands for none
+                assert all(cell in column.get("null", ()) or cell[-1:].isdigit() for cell in cells)
+                assert "-1" not in cells or "-1" in column.get("null", ()), column
+            if column["name"] in ("step", "birth", "vein_birth", "time"):
+                assert column["unit"] == "steps"
+        columns = table["tableSchema"]["columns"]
+        codes = {column["name"] for column in columns if "datatype" in column}
+        assert {"nodes.csv": {"origin"}, "segments.csv": {"kind"}}.get(table["url"], codes) == codes

@@ -185,7 +185,7 @@ NODES = "id,x,y\n0,0,0\n1,0,1\n2,1,1\n"
         ("id,x,y\n0,0,1e99\n", "u,v\n", "t_nodes.csv, row 2: y is '1e99'; it must be a number"),
         ("id,x\n0,0\n", "u,v\n", "t_nodes.csv, row 1: no column y; there is 'id, x'"),
         ("id,x_px,y_mm\n0,0,0\n", "u,v\n", "units 'mm, px'; all columns must be in one"),
-        ("id,x,x_px,y\n0,0,0,0\n", "u,v\n", "columns x, x_px; only one may be x"),
+        ("id,x,x_px,y\n0,0,0,0\n", "u,v\n", "columns 'x, x_px'; only one may be x"),
         ("id,x,y\n" + "a" * 300 + ",?,0\n", "u,v\n", "row 2: x is '?'"),
     ],
 )
@@ -258,7 +258,7 @@ NODE = '<node id="0"><data key="x">0</data><data key="y">0</data></node>'
             "(0, 1)|1\n(2, 3)|{'width': 0.0}\n",
             "line 2: width is '0.0'; it must be above 0",
         ),
-        ("a.txt", "(0, 1e300)|1\n(2, 3)|{}\n", "line 1: x is '1e300'"),
+        ("a.txt", "(0, 1e300)|1\n(2, 3)|{}\n", "line 1: column is '1e300'"),
         ("a.txt", "", "holds no edge"),
         ("a.xyz", "", "a network cannot be read from '.xyz'; known are .csv, .graphml"),
     ],

@@ -11,7 +11,17 @@ from vasc.network import Origin, SegmentKind, VeinNetwork
 from vasc.sources import SourceSet
 
 
-def network(points, segments, *, kinds=None, origins=None, parents=None, births=None, retired=()):
+def network(
+    points,
+    segments,
+    *,
+    kinds=None,
+    origins=None,
+    parents=None,
+    births=None,
+    retired=(),
+    growths=None,
+):
     """A network from points and pairs; the first pair that leads to a node names its parent."""
     points = np.asarray(points, dtype=float).reshape(-1, 2)
     segments = np.asarray(segments, dtype=np.int32).reshape(-1, 2)
@@ -36,6 +46,7 @@ def network(points, segments, *, kinds=None, origins=None, parents=None, births=
         segment_births=births[segments].max(axis=1, initial=0).astype(np.int32),
         segment_kinds=np.asarray(np.zeros(m) if kinds is None else kinds, dtype=np.int8),
         retired=np.asarray(retired, dtype=np.int32),
+        growths=growths,
     )
 
 

@@ -101,8 +101,8 @@ def creation_ranks(network: VeinNetwork) -> Ids:
 def grown_nodes(network: VeinNetwork, directions: Descent) -> Ids:
     """Give for every segment the node whose growth made the vein in it.
 
-    For most segments that is the distal node. A node that only halves a segment
-    grew nothing: its two halves belong to the vein node that they lead to.
+    For most segments that is the distal node. Nodes that refinement adds grew nothing: the
+    pieces of a segment belong to the node that it led to, whether that is still there or not.
 
     Parameters
     ----------
@@ -116,20 +116,15 @@ def grown_nodes(network: VeinNetwork, directions: Descent) -> Ids:
     ndarray of shape (m,), int32
         Node ids.
     """
-    is_halving = network.origins == Origin.REFINEMENT
-    unknown = network.n_nodes
-    targets = np.where(is_halving, unknown, np.arange(network.n_nodes))
-    is_link = is_halving[directions.proximal] & (network.segment_kinds != SegmentKind.JOIN)
-    proximal, distal = directions.proximal[is_link], directions.distal[is_link]
-    n_unknown = -1
-    # as many turns as the longest run of halving nodes; a branch off one is younger
-    # than the vein it leaves, so that the lowest id is the vein's own next node
-    while (count := int((targets == unknown).sum())) != n_unknown:
-        n_unknown = count
-        np.minimum.at(targets, proximal, targets[distal])
-    targets = np.where(targets == unknown, np.arange(network.n_nodes), targets)
-    grown: Ids = targets[directions.distal].astype(np.int32)
-    return grown
+    return directions.distal if network.growths is None else network.growths.nodes
+
+
+def segment_causes(network: VeinNetwork, directions: Descent) -> Ids:
+    """Give the source that caused the vein in every segment, -1 for none; shape (m,), int32."""
+    if network.growths is None:
+        found: Ids = network.causes[directions.distal]
+        return found
+    return network.growths.causes
 
 
 def _levels(

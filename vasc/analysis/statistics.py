@@ -74,18 +74,24 @@ def network_statistics(real: RealNetwork, *, seed: int = 0) -> Numbers:
     Returns
     -------
     dict
-        As :func:`statistics` gives. There is neither step nor blade; densities refer
-        to the area that the veins enclose.
+        As :func:`statistics` gives. There is neither step nor blade, unless the file was
+        exported from a run; without a blade, densities refer to the area that veins enclose.
     """
+    run = real.run
+    blade = None if run is None else run.blade
     sections = find_sections(real.network, real.widths, real.lengths)
-    measured = measure(sections, None, has_widths=real.widths is not None, seed=seed)
-    numbers = _numbers(
-        real.network,
-        measured,
-        measured.enclosed_area,
-        {"blade_length": None, "blade_area": None},
-    )
-    return {"step": None, "time": None, "length_unit": real.unit or None} | _in_unit(numbers, 1.0)
+    measured = measure(sections, blade, has_widths=real.widths is not None, seed=seed)
+    area = measured.enclosed_area if blade is None else float(blade.area)
+    size = {
+        "blade_length": None if run is None else run.blade_length,
+        "blade_area": None if blade is None else area,
+    }
+    when = {
+        "step": None if run is None else run.step,
+        "time": None if run is None else run.time,
+        "length_unit": real.unit or None,
+    }
+    return when | _in_unit(_numbers(real.network, measured, area, size), 1.0)
 
 
 def _numbers(network: VeinNetwork, measured: Measured, area: float, blade: Numbers) -> Numbers:

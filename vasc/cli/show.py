@@ -61,7 +61,7 @@ def described(timeline: "Timeline") -> dict[str, Any]:
         "time": float(frames["time"][-1]) if timeline.n_frames else None,
         "complete": timeline.is_complete,
         "stop_reason": timeline.stop_reason,
-        "nodes": timeline.n_rows("nodes"),
+        "nodes": timeline.n_rows("nodes") - counts.get("node_retired", 0),
         "segments": timeline.n_rows("segments") - refined,
         "sources_placed": placed,
         "sources_active": placed - counts.get("source_removed", 0),

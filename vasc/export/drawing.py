@@ -163,7 +163,7 @@ def _path(specimen: Specimen, line: Line) -> str:
         f'<path d="{_course(specimen.positions[list(line.nodes)])}" fill="none"'
         f' stroke-width="{width}" data-width="{width}"'
         f' data-kind="{KINDS[specimen.kinds[first]]}"'
-        f' data-birth="{specimen.segment_births[first]}"'
+        f' data-vein-birth="{specimen.vein_births[first]}"'
         f' data-source="{specimen.segment_causes[first]}" data-segments="{ids}"/>'
     )
 

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
+from vasc.export.outlines import outline_of
 from vasc.export.specimen import KINDS, ORIGINS, Specimen
 from vasc.export.words import as_bytes, xml_comment
 
@@ -23,17 +24,23 @@ def graphml(specimen: Specimen) -> bytes:
     -------
     bytes
         An undirected graph, whose edges run from the proximal to the distal node; nodes are
-        named by their ids.
+        named by their ids. The outline of a leaf is an attribute of the graph, as well-known
+        text, so that ``vasc stats`` measures the file as it does the run.
     """
     nodes = node_columns(specimen)
     edges = edge_columns(specimen)
-    about = {
+    about: dict[str, Any] = {
         "run": specimen.run,
         "title": specimen.title,
         "step": specimen.step,
         "time": specimen.time,
         "length_unit": specimen.unit.name,
     }
+    if specimen.rings:
+        from shapely import to_wkt
+
+        outline = to_wkt(outline_of(specimen), rounding_precision=-1)
+        about |= {"blade_length": specimen.blade_length, "outline": outline}
     return as_bytes(
         [
             '<?xml version="1.0" encoding="UTF-8"?>',
@@ -68,7 +75,8 @@ def edge_columns(specimen: Specimen) -> dict[str, list[Any]]:
     """Give what a file says of each segment, by name."""
     return {
         "id": specimen.segment_ids.tolist(),
-        "birth": specimen.segment_births.tolist(),
+        "vein_birth": specimen.vein_births.tolist(),
+        "segment_birth": specimen.segment_births.tolist(),
         "kind": [KINDS[code] for code in specimen.kinds.tolist()],
         "order": specimen.orders.tolist(),
         "branching_order": specimen.branching_orders.tolist(),

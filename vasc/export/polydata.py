@@ -44,7 +44,8 @@ def vtp(specimen: Specimen) -> bytes:
     }
     of_lines: dict[str, NDArray] = {
         "id": specimen.segment_ids,
-        "birth": specimen.segment_births,
+        "vein_birth": specimen.vein_births,
+        "segment_birth": specimen.segment_births,
         "kind": specimen.kinds,
         "order": specimen.orders,
         "branching_order": specimen.branching_orders,

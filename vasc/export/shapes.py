@@ -1,17 +1,14 @@
 """Veins and outlines as geometry: GeoJSON and well-known text."""
 
 import json
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from vasc.errors import VascError
 from vasc.export.graphml import edge_columns
+from vasc.export.outlines import outline_of
 from vasc.export.specimen import Specimen
 from vasc.export.words import as_bytes, comment
-
-if TYPE_CHECKING:
-    from shapely import Geometry
 
 
 def geojson(specimen: Specimen) -> bytes:
@@ -68,29 +65,6 @@ def wkt(specimen: Specimen) -> bytes:
     outline = [outline_of(specimen)] if specimen.rings else []
     texts = shapely.to_wkt([*outline, *lines], rounding_precision=-1)
     return as_bytes([*comment(specimen.heading), *texts])
-
-
-def outline_of(specimen: Specimen) -> "Geometry":
-    """Give the outline as a polygon, or as several.
-
-    Raises
-    ------
-    VascError
-        If there is none, as of a stem.
-    """
-    import shapely
-
-    if not specimen.rings:
-        raise VascError("a stem has no outline")
-    # even-odd rule: what lies within an even number of rings is outside
-    outline = shapely.Polygon()
-    for ring in specimen.rings:
-        outline = (
-            outline.symmetric_difference(shapely.Polygon(ring))
-            if outline
-            else (shapely.Polygon(ring))
-        )
-    return outline
 
 
 def _features(specimen: Specimen) -> list[dict[str, Any]]:

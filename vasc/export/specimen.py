@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from vasc.analysis.ancestry import descent, grown_nodes
+from vasc.analysis.ancestry import descent, segment_causes
 from vasc.analysis.branches import branch_orders
 from vasc.analysis.elongation import Elongation, stretched_pipes
 from vasc.analysis.segment_orders import segment_orders
@@ -55,8 +55,10 @@ class Specimen:
         Places in the order of growth: a parent's is below its child's.
     ends : ndarray of shape (m, 2), int32
         Rows of the two nodes of each segment, proximal first.
-    segment_ids, segment_births, segment_causes : ndarray of shape (m,), int32
-        Ids and steps of birth of the segments, and the source that caused each, -1 for none.
+    segment_ids, segment_births : ndarray of shape (m,), int32
+        Ids of the segments, and the steps in which growth or refinement made them.
+    vein_births, segment_causes : ndarray of shape (m,), int32
+        Steps in which the vein in each segment grew, and the source that caused it, -1 for none.
     kinds : ndarray of shape (m,), int8
         Codes, whose words are ``KINDS``.
     orders : ndarray of shape (m,), int32
@@ -67,6 +69,8 @@ class Specimen:
         Widths of the segments.
     rings : tuple of ndarray of shape (k, 2), float64
         The outline, closed implicitly, even-odd rule; none of a stem.
+    blade_length : float or None
+        From the attachment to the tip; None of a stem.
     """
 
     run: str
@@ -85,12 +89,14 @@ class Specimen:
     ends: Ids
     segment_ids: Ids
     segment_births: Steps
+    vein_births: Steps
     segment_causes: Ids
     kinds: Codes
     orders: Ids
     branching_orders: Ids
     widths: Floats
     rings: tuple[Points, ...]
+    blade_length: float | None
 
     @property
     def axes(self) -> tuple[str, ...]:
@@ -220,10 +226,12 @@ def _cut(timeline: Timeline, frame: Frame, widths: Floats) -> Specimen:
         ends=rows[ends].astype(np.int32),
         segment_ids=network.segment_ids,
         segment_births=network.segment_births,
-        segment_causes=network.causes[grown_nodes(network, directions)],
+        vein_births=network.vein_births,
+        segment_causes=segment_causes(network, directions),
         kinds=network.segment_kinds,
         orders=segment_orders(network, widths),
         branching_orders=branch_orders(network, directions=directions),
         widths=np.asarray(widths * unit.per_segment),
         rings=tuple(ring * unit.per_segment for ring in rings),
+        blade_length=float(frame.blade.length * unit.per_segment) if rings else None,
     )

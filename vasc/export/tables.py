@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vasc.arrays import Column
+from vasc.analysis.tissue_units import time_unit
+from vasc.export.descriptions import described
 from vasc.export.specimen import Specimen, specimen
 from vasc.state import table_columns
 from vasc.states import Kind
@@ -29,12 +30,6 @@ AXES = {
     "nodes": ("proximal", "distal"),
 }
 """What one column of points or pairs becomes."""
-AT_STEP = {
-    "nodes": (("x", "y", "z", "radius"), "at the step exported"),
-    "segments": (("order", "branching_order", "width", "length"), "at the step exported"),
-}
-"""Columns beyond those of a run's tables; empty for what refinement has replaced by then."""
-IN_LENGTH = ("x", "y", "z", "radius", "width", "length")
 
 
 def columns_of(timeline: Timeline, step: int = -1) -> dict[str, dict[str, NDArray]]:
@@ -112,7 +107,7 @@ def write_tables(timeline: Timeline, folder: Path, step: int = -1) -> None:
         If the step was not recorded, or cannot be read.
     """
     exported = specimen(timeline, step)
-    described = []
+    files, times = [], time_unit(timeline.config)
     for name, columns in _columns_with(timeline, exported).items():
         n_rows = len(next(iter(columns.values())))
         numbered = columns if name in WITHOUT_ID else {"id": np.arange(n_rows), **columns}
@@ -120,12 +115,15 @@ def write_tables(timeline: Timeline, folder: Path, step: int = -1) -> None:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(numbered)
             writer.writerows(zip(*(_cells(rows) for rows in numbered.values()), strict=True))
-        described.append(_described(name, list(numbered), exported.unit.name))
+        columns_of_file = [
+            described(name, column, exported.unit.name, times) for column in numbered
+        ]
+        files.append({"url": f"{name}.csv", "tableSchema": {"columns": columns_of_file}})
     about = {
         "@context": "http://www.w3.org/ns/csvw",
         "dc:title": exported.heading[0],
         "dc:description": "; ".join(exported.heading[1:]),
-        "tables": described,
+        "tables": files,
     }
     text = json.dumps(about, indent=1) + "\n"
     (folder / DESCRIPTION).write_text(text, encoding="utf-8")
@@ -142,6 +140,8 @@ def _columns_with(timeline: Timeline, exported: Specimen) -> dict[str, dict[str,
         "segments": (
             exported.segment_ids,
             {
+                "vein_birth": exported.vein_births,
+                "source": exported.segment_causes,
                 "order": exported.orders,
                 "branching_order": exported.branching_orders,
                 "width": exported.widths,
@@ -208,23 +208,3 @@ def _spread(values: NDArray, ids: NDArray, n_rows: int) -> NDArray:
 def _cells(values: NDArray) -> list[Any]:
     """Give the cells of a column; an empty one for nan."""
     return ["" if value != value else value for value in values.tolist()]
-
-
-def _described(name: str, columns: list[str], unit: str) -> dict[str, Any]:
-    """Describe one file."""
-    meant: Mapping[str, Column] = frame_columns(0) if name == "frames" else table_columns(3)[name]
-    added, meaning = AT_STEP.get(name, ((), ""))
-    found = []
-    for column in columns:
-        if column == "id":
-            found.append({"name": column, "dc:description": "row of the table, never reused"})
-            continue
-        if column in added:
-            is_length, text = column in IN_LENGTH, meaning
-        else:
-            key = column if column in meant else column.rpartition("_")[0]
-            is_length, text = meant[key].unit == "length", meant[key].meaning
-        found.append({"name": column, "dc:description": text})
-        if is_length:
-            found[-1]["unit"] = unit
-    return {"url": f"{name}.csv", "tableSchema": {"columns": found}}

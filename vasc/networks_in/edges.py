@@ -1,6 +1,7 @@
 """Nodes and edges as a file gives them, checked one by one, made a network at the end."""
 
 import math
+import re
 from collections.abc import Hashable
 
 import numpy as np
@@ -11,6 +12,12 @@ from vasc.real_network import RealNetwork
 
 LARGEST = 1e12
 """Numbers at most, so that squares and products of lengths stay exact enough."""
+LEAST_LENGTH = 0.5
+"""Of a vein over the straight way between its ends, which are too far apart if they are rounded."""
+NUMERAL = re.compile(r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]{1,9})?")
+"""What counts as a number in a text."""
+LONGEST_INTEGER = 1000
+"""Bits of a whole number that can be shown."""
 NUMBER = f"a number between -{LARGEST:g} and {LARGEST:g}"
 
 
@@ -45,7 +52,7 @@ class Edges:
         if len(self.rows) >= NETWORK_ROWS:
             raise self.error(where, f"more than {NETWORK_ROWS:,} nodes")
         self.rows[node] = len(self.places)
-        self.places.append((self._number(x, "x", where), self._number(y, "y", where)))
+        self.places.append((self.number(x, "x", where), self.number(y, "y", where)))
 
     def add_edge(
         self, one: Hashable, other: Hashable, width: object, length: object, where: str
@@ -80,6 +87,17 @@ class Edges:
         self.pairs.append(pair)
         self.widths.append(self._above_zero(width, "width", where))
         self.lengths.append(self._above_zero(length, "length", where))
+        self._check_length(pair, self.lengths[-1], where)
+
+    def _check_length(self, pair: tuple[int, int], length: float | None, where: str) -> None:
+        """Refuse a length that cannot be one of a vein between these places."""
+        straight = math.dist(self.places[pair[0]], self.places[pair[1]])
+        if length is not None and length < LEAST_LENGTH * straight:
+            raise self.error(
+                where,
+                f"length is {length:g}, and its ends are {straight:g} apart; it must be in the"
+                " unit of the places, and as long as that",
+            )
 
     def network(self, unit: str = "") -> RealNetwork:
         """Make the network.
@@ -103,12 +121,15 @@ class Edges:
         """Give an error that names the file and the place in it."""
         return NetworkError(f"{self.name}, {where}: {problem}")
 
-    def _number(self, value: object, what: str, where: str) -> float:
-        """Give a finite number."""
-        try:
-            number = float(value)  # type: ignore[arg-type]
-        except (TypeError, ValueError, OverflowError):
-            number = math.nan
+    def number(self, value: object, what: str, where: str) -> float:
+        """Give a finite number.
+
+        Raises
+        ------
+        NetworkError
+            If it is none.
+        """
+        number = number_of(value)
         if isinstance(value, bool) or not abs(number) <= LARGEST:
             raise self.error(where, f"{what} is {shown(value)}; it must be {NUMBER}")
         return number
@@ -117,7 +138,7 @@ class Edges:
         """Give a number above 0, or None for none."""
         if value is None or value == "":
             return None
-        number = self._number(value, what, where)
+        number = self.number(value, what, where)
         if number < 1.0 / LARGEST:
             raise self.error(where, f"{what} is {shown(value)}; it must be above 0")
         return number
@@ -139,7 +160,25 @@ class Edges:
         return [(key, row) for row, key in enumerate(self._first)]
 
 
+def number_of(value: object) -> float:
+    """Give a number of a file, nan for what is none.
+
+    Python reads more than files of numbers hold, as ``1_0`` and digits of other scripts.
+    """
+    if isinstance(value, str) and not NUMERAL.fullmatch(value.strip(" \t")):
+        return math.nan
+    try:
+        return float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        return math.nan
+
+
 def shown(value: object) -> str:
-    """Quote a value of a file, cut where it is long."""
-    text = str(value)
+    """Quote a value of a file, cut where it is long, with nothing that steers a terminal."""
+    if isinstance(value, int) and value.bit_length() > LONGEST_INTEGER:
+        return "a whole number of more than 300 digits"
+    text = "".join(
+        mark if mark.isprintable() else mark.encode("unicode_escape").decode()
+        for mark in str(value)[:44]
+    )
     return f"'{text[:40]}...'" if len(text) > 43 else f"'{text}'"

@@ -61,8 +61,11 @@ def _object(name: str, text: str) -> Any:
             raise NetworkError(f"{name}: brackets are nested more than {NETWORK_DEPTH} deep")
     try:
         return json.loads(text)
-    except (ValueError, RecursionError) as error:
+    except json.JSONDecodeError as error:
         raise NetworkError(f"{name}: not JSON: {error}") from error
+    except (ValueError, RecursionError) as error:
+        # Python reads no whole number of more than 4300 digits
+        raise NetworkError(f"{name}: not JSON that can be read: a number is too long") from error
 
 
 def _lines(name: str, found: Any, where: str = "", width: Any = None) -> Iterator[Line]:

@@ -4,11 +4,14 @@ from xml.parsers import expat
 
 from vasc.errors import NetworkError
 from vasc.limits import NETWORK_DEPTH
-from vasc.networks_in.edges import Edges
+from vasc.networks_in.edges import Edges, shown
+from vasc.networks_in.exported import as_exported
 from vasc.real_network import RealNetwork
 
 MAX_TEXT = 10_000
-"""Characters of one value at most."""
+"""Characters of one value of a node or an edge at most."""
+MAX_GRAPH_TEXT = 10_000_000
+"""Characters of one value of the graph at most, as of the outline of a blade."""
 
 Attributes = dict[str, str]
 
@@ -22,7 +25,8 @@ def read_graphml(name: str, text: str) -> RealNetwork:
         Name of the file.
     text : str
         Nodes need the attributes ``x`` and ``y``; edges may have ``width`` and
-        ``length``. Others are left alone, and so is the direction of edges.
+        ``length``. Others are left alone, and so is the direction of edges. What
+        ``vasc export`` writes besides is understood, see :mod:`vasc.networks_in.exported`.
 
     Returns
     -------
@@ -33,7 +37,7 @@ def read_graphml(name: str, text: str) -> RealNetwork:
     ------
     NetworkError
         If it is not well-formed, declares a document type or entities, or a node or an
-        edge is not as it must be.
+        edge is not as it must be, or nodes lie in space.
     """
     reader = _Reader(name)
     parser = expat.ParserCreate()
@@ -49,7 +53,7 @@ def read_graphml(name: str, text: str) -> RealNetwork:
         raise NetworkError(f"{name}: not well-formed XML: {error}") from error
     for edge in reader.edges:
         reader.found.add_edge(*edge)
-    return reader.found.network()
+    return as_exported(name, reader.found.network(), reader.told, reader.origins)
 
 
 class _Reader:
@@ -66,6 +70,10 @@ class _Reader:
         self.text = ""
         self.element: Attributes = {}
         self.values: Attributes = {}
+        self.told: Attributes = {}
+        self.origins: dict[int, str] = {}
+        self.heights: set[str] = set()
+        self.is_within = False
 
     def refuse(self, *_: object) -> None:
         """Refuse document types and with them all entities."""
@@ -90,14 +98,15 @@ class _Reader:
         elif name == "graph":
             self.n_graphs += 1
         elif name in ("node", "edge"):
-            self.element, self.values = attributes, {}
+            self.element, self.values, self.is_within = attributes, {}, True
         elif name == "data":
             key = attributes.get("key", "")
             self.key, self.text = self.names.get(key, key), ""
 
     def characters(self, text: str) -> None:
         """Take in the text of a value."""
-        if self.key is not None and len(self.text) <= MAX_TEXT:
+        longest = MAX_TEXT if self.is_within else MAX_GRAPH_TEXT
+        if self.key is not None and len(self.text) <= longest:
             self.text += text
 
     def end(self, tag: str) -> None:
@@ -105,11 +114,14 @@ class _Reader:
         self.depth -= 1
         name = tag.rpartition(":")[2]
         if name == "data" and self.key is not None:
-            self.values[self.key.lower()] = self.text.strip()
+            values = self.values if self.is_within else self.told
+            values[self.key.lower()] = self.text.strip()
             self.key = None
         elif name == "node" and self.n_graphs == 1:
+            self.is_within = False
             self._end_node()
         elif name == "edge" and self.n_graphs == 1:
+            self.is_within = False
             ends = self.element.get("source", ""), self.element.get("target", "")
             measures = self.values.get("width"), self.values.get("length")
             self.edges.append((*ends, *measures, self.where))
@@ -119,5 +131,10 @@ class _Reader:
         node = self.element.get("id", "")
         for axis in ("x", "y"):
             if axis not in self.values:
-                raise self.found.error(self.where, f"node '{node[:40]}' has no attribute {axis}")
+                raise self.found.error(self.where, f"node {shown(node)} has no attribute {axis}")
+        self.heights.add(self.values.get("z", ""))
+        if len(self.heights) > 1:
+            raise self.found.error(self.where, "nodes differ in z; veins must lie in a plane")
+        if "origin" in self.values:
+            self.origins[len(self.found.rows)] = self.values["origin"]
         self.found.add_node(node, self.values["x"], self.values["y"], self.where)

@@ -63,6 +63,11 @@ def read_tables(nodes_name: str, nodes: str, edges_name: str, edges: str) -> Rea
 
 def _table(name: str, text: str) -> Table:
     """Give the names of the columns, and the rows with what to call them."""
+    if "\r" in text and "\n" not in text:
+        raise NetworkError(
+            f"{name}: lines end with a carriage return alone, as of old Macintosh programs;"
+            " save it with line ends of today"
+        )
     lines = csv.reader(io.StringIO(text), strict=True, delimiter=_delimiter(text))
     try:
         header = [cell.strip().lower() for cell in next(lines, [])]
@@ -103,9 +108,13 @@ def _delimiter(text: str) -> str:
 
 def _column(name: str, header: list[str], names: tuple[str, ...]) -> int:
     """Give the place of the column with one of some names."""
-    for one in names:
-        if one in header:
-            return header.index(one)
+    there = [column for column in header if column in names]
+    if len(there) > 1:
+        raise NetworkError(
+            f"{name}, row 1: columns {shown(', '.join(there))}; only one may be {names[0]}"
+        )
+    if there:
+        return header.index(there[0])
     said = ", ".join(header) or "nothing"
     raise NetworkError(f"{name}, row 1: no column {' or '.join(names)}; there is {shown(said)}")
 
@@ -114,7 +123,9 @@ def _measure(name: str, header: list[str], what: str, units: set[str]) -> int | 
     """Give the place of a column of numbers, perhaps with a unit; None without one."""
     found = [column for column in header if re.fullmatch(rf"{what}(_\w+)?", column)]
     if len(found) > 1 or header.count(what) > 1:
-        raise NetworkError(f"{name}, row 1: columns {', '.join(found)}; only one may be {what}")
+        raise NetworkError(
+            f"{name}, row 1: columns {shown(', '.join(found))}; only one may be {what}"
+        )
     if not found:
         return None
     units.add(found[0][len(what) + 1 :])

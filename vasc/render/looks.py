@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from vasc.analysis.ancestry import Descent, grown_nodes
+from vasc.analysis.ancestry import Descent, segment_causes
 from vasc.analysis.segment_orders import segment_orders
 from vasc.analysis.widths import WidthParameters
 from vasc.arrays import NULL, Floats, Ids
@@ -185,9 +185,9 @@ def color_segments(
     if color == "order":
         return _by_order(segment_orders(network, widths))
     if color == "age":
-        return _by_age(network, directions, paint.last_step)
+        return _by_age(network, paint.last_step)
     if color == "source":
-        causes = network.causes[grown_nodes(network, directions)].astype(np.int64)
+        causes = segment_causes(network, directions).astype(np.int64)
         palette = (*SOURCE_COLORS, style.vein)
         classes = np.where(causes == NULL, len(SOURCE_COLORS), causes % len(SOURCE_COLORS))
         return Coloring(classes, palette, _key_of_sources(classes, palette))
@@ -221,9 +221,9 @@ def _by_order(orders: Ids) -> Coloring:
     return Coloring(np.minimum(orders, n_colors).astype(np.int64) - 1, ORDER_COLORS, key)
 
 
-def _by_age(network: VeinNetwork, directions: Descent, last_step: int) -> Coloring:
+def _by_age(network: VeinNetwork, last_step: int) -> Coloring:
     """Colour by the step at which each vein grew, from step 0 on."""
-    births = network.births[grown_nodes(network, directions)] / max(last_step, 1)
+    births = network.vein_births / max(last_step, 1)
     classes = np.rint(np.clip(births, 0.0, 1.0) * (AGE_CLASSES - 1)).astype(np.int64)
     key = Key("step of birth", ("0", str(last_step)), AGE_COLORS, is_gradient=True)
     return Coloring(classes, gradient(AGE_COLORS, AGE_CLASSES), key)

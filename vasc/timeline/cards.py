@@ -57,7 +57,7 @@ def timeline_card(timeline: Recorded) -> str:
         "seed": lambda: str(timeline.seed),
         "last step": lambda: timeline.last_step,
         "complete": lambda: "yes" if timeline.is_complete else "no",
-        "nodes": lambda: timeline.n_rows("nodes"),
+        "nodes": lambda: timeline.frame().n_vein_nodes,
         "sources": lambda: timeline.n_rows("sources"),
         "events": lambda: timeline.n_rows("events"),
     }

@@ -13,6 +13,7 @@ from vasc.arrays import Points
 from vasc.canals import CANAL_TABLES, CanalSet, canals_from_columns
 from vasc.domain import Blade, Tissue
 from vasc.errors import TimelineError, VascError
+from vasc.events import EventKind
 from vasc.fields import Fields
 from vasc.network import NODE_COLUMNS, Origin, SegmentKind, VeinNetwork
 from vasc.notebook import card, picture_of
@@ -68,7 +69,7 @@ class Frame:
         self.time = float(row["time"])
 
     def __repr__(self) -> str:
-        return f"Frame(step={self.step}, time={self.time:g}, nodes={self.n_rows('nodes')})"
+        return f"Frame(step={self.step}, time={self.time:g}, nodes={self.n_vein_nodes})"
 
     def _repr_html_(self) -> str:
         """Show a small picture in a notebook."""
@@ -108,6 +109,12 @@ class Frame:
     def n_rows(self, table: str) -> int:
         """Give the number of rows of a table that existed at this step."""
         return int(self._row[f"n_{table}"])
+
+    @property
+    def n_vein_nodes(self) -> int:
+        """Number of nodes at this step that refinement has not replaced."""
+        retired = int((self.rows("events", "kind") == EventKind.NODE_RETIRED).sum())
+        return self.n_rows("nodes") - retired
 
     def rows(self, table: str, column: str) -> NDArray:
         """Give a column of a table as it was at this step.
@@ -155,7 +162,7 @@ class Frame:
         return network_from_columns(
             {name: self.rows("nodes", name) for name in needed},
             {name: self.rows("segments", name) for name in ("nodes", "birth", "kind")},
-            {name: self.rows("events", name) for name in ("kind", "subject")},
+            {name: self.rows("events", name) for name in ("kind", "subject", "object")},
             self.positions,
         )
 
@@ -201,8 +208,10 @@ class Frame:
         Returns
         -------
         networkx.Graph
-            Nodes with ``x, y, birth, origin, parent, source``, in space ``z`` as well;
-            edges with ``id, birth, kind, length``.
+            Nodes with ``x, y, birth, origin, parent, source``, in space ``z`` as well; those
+            that refinement has replaced are left out. Edges with ``id, vein_birth,
+            segment_birth, kind, length``: the step in which the vein there grew, and the one
+            in which growth or refinement made this segment.
 
         Raises
         ------
@@ -219,20 +228,25 @@ class Frame:
             network.parents.tolist(),
             network.causes.tolist(),
         )
+        retired = set(network.retired.tolist())
         for node, (place, birth, origin, parent, source) in enumerate(zip(*columns, strict=True)):
+            if node in retired:
+                continue
             axes = dict(zip("xyz", place, strict=False))
             kind = Origin(origin).name.lower()
             graph.add_node(node, **axes, birth=birth, origin=kind, parent=parent, source=source)
         edges = (
             network.segments.tolist(),
             network.segment_ids.tolist(),
+            network.vein_births.tolist(),
             network.segment_births.tolist(),
             network.segment_kinds.tolist(),
             network.lengths.tolist(),
         )
-        for (start, end), row, birth, code, length in zip(*edges, strict=True):
-            kind = SegmentKind(code).name.lower()
-            graph.add_edge(start, end, id=row, birth=birth, kind=kind, length=length)
+        names = ("id", "vein_birth", "segment_birth", "kind", "length")
+        for (start, end), row, grown, birth, code, length in zip(*edges, strict=True):
+            values = (row, grown, birth, SegmentKind(code).name.lower(), length)
+            graph.add_edge(start, end, **dict(zip(names, values, strict=True)))
         return graph
 
     def _positions(self, table: str) -> Points:

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from vasc.arrays import NULL, Ids
 from vasc.errors import TimelineError
 from vasc.events import EventKind
-from vasc.network import SegmentKind
 from vasc.timeline.frame import Frame
 
 if TYPE_CHECKING:
@@ -190,26 +189,20 @@ def _found(frame: Frame) -> tuple[Genealogy, Loops]:
 
 
 def _closures(frame: Frame) -> list[tuple[int, int, int]]:
-    """Give each segment that closed a loop, a living piece of it, and the step; newest first."""
-    events = {name: frame.rows("events", name) for name in ("step", "kind", "subject", "object")}
-    alive = frame.network.segment_ids
-    is_cut = events["kind"] == EventKind.SEGMENT_REFINED
-    pieces = alive.astype(np.int32)
-    if is_cut.any():
-        cut = np.full(frame.n_rows("nodes"), NULL, dtype=np.int32)
-        cut[events["object"][is_cut]] = events["subject"][is_cut]
-        # a piece was made with the newer of its ends, which halves what it is a piece of
-        before = cut[frame.rows("segments", "nodes").max(axis=1)]
-        before[frame.rows("segments", "kind") != SegmentKind.REFINEMENT] = NULL
-        while (is_piece := before[pieces] != NULL).any():
-            pieces = np.where(is_piece, before[pieces], pieces)
+    """Give each segment that closed a loop, a living piece of it, and the step; newest first.
+
+    There has to be a segment.
+    """
+    events = {name: frame.rows("events", name) for name in ("step", "kind", "subject")}
+    growths = frame.network.growths
+    pieces = frame.network.segment_ids if growths is None else growths.ids
     # the first living piece of each
     order = np.argsort(pieces, kind="stable")
     closed = np.flatnonzero(events["kind"] == EventKind.LOOP_CLOSED)[::-1]
     segments, steps = events["subject"][closed], events["step"][closed]
     places = np.searchsorted(pieces[order], segments)
-    rows = order[np.minimum(places, max(len(order) - 1, 0))] if len(order) else places
-    is_alive = pieces[rows] == segments if len(order) else np.zeros(len(rows), dtype=bool)
+    rows = order[np.minimum(places, len(order) - 1)]
+    is_alive = pieces[rows] == segments
     found = (values[is_alive].tolist() for values in (segments, rows, steps))
     return list(zip(*found, strict=True))
 

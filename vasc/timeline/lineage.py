@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from vasc.arrays import NULL, Ids
 from vasc.errors import TimelineError
+from vasc.notebook import card
 from vasc.timeline import competition, vein_loops, veins
 from vasc.timeline.areole_lineage import AreoleFate, areole_fate
 from vasc.timeline.competition import competitors
@@ -43,6 +44,21 @@ class Lineage:
 
     def __init__(self, timeline: Recorded) -> None:
         self._timeline = timeline
+
+    def __repr__(self) -> str:
+        return f"Lineage({str(self._timeline.path)!r})"
+
+    def _repr_html_(self) -> str:
+        """Show in a notebook what there is to ask of."""
+        rows = self._timeline.n_rows
+        facts = {
+            "run": lambda: self._timeline.path.name,
+            "last step": lambda: self._timeline.last_step,
+            "nodes, replaced ones too": lambda: rows("nodes"),
+            "sources, removed ones too": lambda: rows("sources"),
+            "tables": lambda: ", ".join(LINEAGE_TABLES),
+        }
+        return card("Lineage", facts, lambda: "")
 
     @cached_property
     def parents(self) -> Ids:
