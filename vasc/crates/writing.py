@@ -85,7 +85,9 @@ def export_crate(
         shutil.copyfile(run, folder / TIMELINE)
         with Timeline(run) as timeline, Timeline(folder / TIMELINE) as copied:
             if timeline.n_frames != copied.n_frames:
-                raise TimelineError(f"{run}: is being written; export it when the run has ended")
+                raise TimelineError(
+                    f"{run}: is being written, or was killed; wait, or `vasc resume` it first"
+                )
             files = _fill(copied, folder, step)
             crate = described(copied, files, folder, authors=authors, license=license)
         crate.metadata.write(folder)
