@@ -1,9 +1,13 @@
+import re
+
+import h5py
 import numpy as np
 import pytest
 from timeline.synthetic import record
 
+from vasc.errors import TimelineError
 from vasc.events import EventKind
-from vasc.timeline import Timeline
+from vasc.timeline import Timeline, validate
 
 
 @pytest.fixture(scope="module")
@@ -85,3 +89,23 @@ def test_the_life_table_of_no_sources_is_empty(tmp_path):
     record(tmp_path / "run.h5", 0)
     with Timeline(tmp_path / "run.h5") as opened:
         assert all(len(column) == 0 for column in opened.lineage.life_table().values())
+
+
+@pytest.mark.parametrize("damage", [{50: -7}, {50: 50}, {50: 10**8}, {50: 51, 51: 52, 52: 50}])
+def test_damaged_parents_are_refused_wherever_they_are_read(tmp_path, damage):
+    path = tmp_path / "run.h5"
+    record(path, 60)
+    with h5py.File(path, "r+") as file:
+        for row, parent in damage.items():
+            file["nodes/parent"][row] = parent
+    said = re.escape(f"{path}: damaged: nodes/parent of row 50 is {damage[50]}; it must be an ")
+    for ask in (
+        lambda timeline: timeline.lineage.table("births"),
+        lambda timeline: timeline.lineage.ancestors(60),
+        lambda timeline: timeline.lineage.competitors(1),
+        lambda timeline: timeline.frame().network,
+        lambda timeline: timeline.tables(),
+    ):
+        with Timeline(path) as timeline, pytest.raises(TimelineError, match=said):
+            ask(timeline)
+    assert any("nodes/parent: row 50" in finding for finding in validate(path))

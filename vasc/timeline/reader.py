@@ -24,6 +24,7 @@ from vasc.timeline.layout import MOTION, TABLES, Motion, count_column
 from vasc.timeline.lineage import Lineage
 from vasc.timeline.occurrences import Events
 from vasc.timeline.outlines import read_initial_blade
+from vasc.timeline.parents import WITH_PARENTS, check_parents
 from vasc.timeline.provenance import sessions
 from vasc.timeline.tissues import RecordedPast, read_fields, read_tissue
 
@@ -228,7 +229,8 @@ class Timeline:
         Raises
         ------
         TimelineError
-            If there is no such table, column or row, or the rows cannot be read.
+            If there is no such table, column or row, the rows cannot be read, or they are
+            parents that are no earlier rows.
         """
         n_rows = self.n_rows(name)
         if column not in TABLES[name]:
@@ -237,7 +239,10 @@ class Timeline:
         stop = n_rows if stop is None else stop
         if not 0 <= start <= stop <= n_rows:
             raise TimelineError(f"rows {start} to {stop} of {name}: it has {n_rows}")
-        return self.opened.read(f"{name}/{column}", start, stop)
+        rows = self.opened.read(f"{name}/{column}", start, stop)
+        if column == "parent" and name in WITH_PARENTS:
+            check_parents(self.path, name, rows, start)
+        return rows
 
     def frame(self, step: int = -1) -> Frame:
         """Give a recorded step, the last one when not given.
@@ -346,6 +351,8 @@ class Timeline:
             table = Table(columns, capacity=max(256, n_rows + n_rows // 8))
             for column, array in table.arrays.items():
                 self.opened.read(f"{name}/{column}", 0, n_rows, out=array[:n_rows])
+            if name in WITH_PARENTS:
+                check_parents(self.path, name, table.arrays["parent"][:n_rows])
             table.n_rows = n_rows
             filled[name] = table
         past = RecordedPast(self.opened) if self.opened.found.has_tissue else None

@@ -43,7 +43,9 @@ class Record:
     def column(self, table: str, name: str) -> NDArray:
         """Give a column of a table."""
         if (table, name) not in self._columns:
-            self._columns[table, name] = self.timeline.table(table, name)
+            n_rows = self.timeline.n_rows(table)
+            # read as it is: whether it is sound is what the rules tell
+            self._columns[table, name] = self.timeline.opened.read(f"{table}/{name}", 0, n_rows)
         return self._columns[table, name]
 
     @cached_property

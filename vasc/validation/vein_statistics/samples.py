@@ -33,8 +33,9 @@ class LeafSample:
     ----------
     name : str
         What it is called in the report.
-    kind : {"closed", "areole", "open", "real"}
-        The model that made it, or that no model did.
+    kind : str
+        The model that made it; "real" for the control that comes with vasc, "given" for a
+        real network of the user.
     leaf : RealNetwork
         Its veins. Those of a run are measured just as those of a real leaf: densities
         refer to the area that veins enclose.
