@@ -265,6 +265,12 @@ def test_links_between_pages_lead_somewhere(page):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
+def test_tests_that_pages_name_are_there(page):
+    named = re.findall(r"`(tests/[\w/.-]+)`", page.read_text())
+    assert [name for name in named if not (ROOT / name).exists()] == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
 def test_links_are_followed_in_the_repository_as_on_the_site(page):
     # a role of Sphinx is plain text where pages are read as Markdown
     assert re.findall(r"\{(?:doc|ref|any)\}`[^`]*`", page.read_text()) == []
