@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from vasc.errors import OutputError
+from vasc.errors import OutputError, VascError
 from vasc.export.drawing import svg
 from vasc.export.graphml import graphml
 from vasc.export.meshes import StemMesh, mesh_of
@@ -19,7 +19,7 @@ from vasc.export.trees import mtg, swc
 from vasc.export.words import as_bytes
 from vasc.timeline import Timeline
 from vasc.timeline.stems import is_stem, recorded_stem
-from vasc.timeline.storage import beside, publish
+from vasc.timeline.storage import beside, publish, writing
 
 DOCUMENTS: dict[str, Callable[[Specimen], bytes]] = {
     ".graphml": graphml,
@@ -143,6 +143,9 @@ def _content(timeline: Timeline, suffix: str, step: int, spanning: bool) -> byte
     """Give the bytes of a file that holds one step."""
     if suffix in MESH_SUFFIXES:
         mesh, heading = _mesh(timeline, step)
+        if not len(mesh.faces):
+            at = timeline.frame(step).step
+            raise VascError(f"{timeline.path}: there is no vein at step {at} to make a solid of")
         return packed(mesh, suffix, heading)
     exported = specimen(timeline, step)
     if suffix in TREES:
@@ -175,7 +178,8 @@ def _write(output: Path, content: bytes, *, force: bool) -> None:
     """Write a file in one go, so that no half file is left behind."""
     ready = beside(output)
     try:
-        ready.write_bytes(content)
+        with writing(output):
+            ready.write_bytes(content)
         publish(ready, output, force=force)
     finally:
         ready.unlink(missing_ok=True)
@@ -186,17 +190,19 @@ def _new_folder(folder: Path) -> Iterator[Path]:
     """Give an empty folder that takes its place, and that of an older one, when it is filled."""
     folder = folder.resolve()
     ready, old = beside(folder), beside(folder)
-    ready.mkdir()
+    with writing(folder):
+        ready.mkdir()
     try:
-        yield ready
-        if folder.exists():
-            folder.rename(old)
-        try:
-            ready.rename(folder)
-        except BaseException:
-            if old.exists():
-                old.rename(folder)
-            raise
+        with writing(folder):
+            yield ready
+            if folder.exists():
+                folder.rename(old)
+            try:
+                ready.rename(folder)
+            except BaseException:
+                if old.exists():
+                    old.rename(folder)
+                raise
     finally:
         for left in (ready, old):
             shutil.rmtree(left, ignore_errors=True)
