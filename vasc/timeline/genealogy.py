@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vasc.arrays import NULL, Ids
 from vasc.errors import TimelineError
 from vasc.events import EventKind
+from vasc.network import VeinNetwork
 from vasc.timeline.frame import Frame
 
 if TYPE_CHECKING:
@@ -196,7 +197,29 @@ def _closures(frame: Frame) -> list[tuple[int, int, int]]:
     rows = dict(zip(alive.tolist()[::-1], range(len(alive) - 1, -1, -1), strict=True))
     closed = np.flatnonzero(events["kind"] == EventKind.LOOP_CLOSED)[::-1]
     pairs = zip(events["subject"][closed].tolist(), events["step"][closed].tolist(), strict=True)
-    return [(segment, rows[segment], step) for segment, step in pairs if segment in rows]
+    found = [(segment, rows[segment], step) for segment, step in pairs if segment in rows]
+    known = {segment for segment, _, _ in found}
+    given = [one for one in _given_closures(frame.network) if int(alive[one]) not in known]
+    return found + [(int(alive[row]), row, 0) for row in given[::-1]]
+
+
+def _given_closures(network: VeinNetwork) -> list[int]:
+    """Give the segments that close loops of given veins, by row: no event tells of them."""
+    above = list(range(network.n_nodes))
+
+    def top(node: int) -> int:
+        while above[node] != node:
+            above[node] = above[above[node]]
+            node = above[node]
+        return node
+
+    closing = []
+    for row in np.flatnonzero(network.vein_births == 0).tolist():
+        first, second = (top(node) for node in network.segments[row].tolist())
+        if first == second:
+            closing.append(row)
+        above[first] = second
+    return closing
 
 
 class _Merged:
