@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from vasc.errors import OutputError
 from vasc.render.styles import DPI
+from vasc.timeline.storage import writing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -54,7 +55,8 @@ def save(figure: Figure, output: str | Path) -> None:
     with rc_context(_SETTINGS):
         figure.savefig(picture, format=kind[1:], dpi=DPI, metadata=_METADATA[kind])
     # written in one go, so that no half picture is left behind
-    output.write_bytes(picture.getvalue())
+    with writing(output):
+        output.write_bytes(picture.getvalue())
 
 
 def checked_output(output: str | Path, suffixes: Sequence[str]) -> Path:

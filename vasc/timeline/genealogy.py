@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vasc.arrays import NULL, Ids
 from vasc.errors import TimelineError
 from vasc.events import EventKind
+from vasc.network import VeinNetwork
 from vasc.timeline.frame import Frame
 
 if TYPE_CHECKING:
@@ -203,8 +204,31 @@ def _closures(frame: Frame) -> list[tuple[int, int, int]]:
     places = np.searchsorted(pieces[order], segments)
     rows = order[np.minimum(places, len(order) - 1)]
     is_alive = pieces[rows] == segments
-    found = (values[is_alive].tolist() for values in (segments, rows, steps))
-    return list(zip(*found, strict=True))
+    found = list(
+        zip(*(values[is_alive].tolist() for values in (segments, rows, steps)), strict=True)
+    )
+    known = {segment for segment, _, _ in found}
+    given = [one for one in _given_closures(frame.network) if int(pieces[one]) not in known]
+    return found + [(int(pieces[row]), row, 0) for row in given[::-1]]
+
+
+def _given_closures(network: VeinNetwork) -> list[int]:
+    """Give the segments that close loops of given veins, by row: no event tells of them."""
+    above: dict[int, int] = {}
+
+    def top(node: int) -> int:
+        while (upper := above.get(node, node)) != node:
+            above[node] = above.get(upper, upper)
+            node = upper
+        return node
+
+    closing = []
+    for row in np.flatnonzero(network.vein_births == 0).tolist():
+        first, second = (top(node) for node in network.segments[row].tolist())
+        if first == second:
+            closing.append(row)
+        above[first] = second
+    return closing
 
 
 class _Merged:
