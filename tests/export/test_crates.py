@@ -223,7 +223,7 @@ def test_what_goes_wrong_leaves_nothing(runs, tmp_path, monkeypatch):
         raise OSError("no space")
 
     monkeypatch.setattr("vasc.crates.writing.render", fail)
-    with pytest.raises(OSError, match="no space"):
+    with pytest.raises(OutputError, match="no space"):
         export_crate(runs.open, tmp_path / "a.crate")
     with pytest.raises(TimelineError):
         export_crate(citation_file(), tmp_path / "b.crate")
