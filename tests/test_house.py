@@ -233,6 +233,25 @@ def test_versions_agree():
     assert headings[0] == vasc.__version__
 
 
+def test_the_citation_is_in_the_citation_file_format():
+    text = (ROOT / "CITATION.cff").read_text()
+    keys = re.findall(r"^([a-z-]+):", text, flags=re.MULTILINE)
+    assert len(keys) == len(set(keys))
+    # what the format asks for, and what vasc may say: it has no address, and no release yet
+    required = {"cff-version", "message", "title", "authors"}
+    assert required <= set(keys)
+    assert set(keys) <= required | {"type", "version", "license", "keywords", "references"}
+    assert text.startswith("cff-version: 1.2.0\n")
+    assert f"\nlicense: {PROJECT['project']['license']}\n" in text
+    assert "(unreleased)" in (ROOT / "CHANGELOG.md").read_text()
+    works = re.split(r"^  - (?=type:)", text, flags=re.MULTILINE)[1:]
+    assert works
+    for work in works:
+        assert re.match(r"type: (?:article|book|conference-paper|report|software|thesis)\n", work)
+        for key in ("title", "authors", "year"):
+            assert re.search(rf"^    {key}:", work, flags=re.MULTILINE), work
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
 def test_links_between_pages_lead_somewhere(page):
     targets = re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", page.read_text())
@@ -302,7 +321,7 @@ def test_the_wheel_holds_the_package_the_configs_and_the_real_leaf_once(wheel):
     package = {f"vasc/{name}" for name in files_below(ROOT / "vasc")}
     configs = {f"vasc/_configs/{name}" for name in files_below(ROOT / "configs")}
     leaf = {f"vasc/_dalbergia/{name}" for name in files_below(ROOT / "tests/data/dalbergia")}
-    assert wheel == package | configs | leaf
+    assert wheel == package | configs | leaf | {"vasc/CITATION.cff"}
     assert "vasc/_configs/poplar-leaf.toml" in wheel
     assert "vasc/py.typed" in wheel
     assert "vasc/timeline/provenance.schema.json" in wheel

@@ -16,7 +16,10 @@ from vasc.timeline import Timeline
 
 ROOT = Path(__file__).resolve().parent.parent
 NOTEBOOK = ROOT / "docs" / "tutorial.ipynb"
-PICTURE = re.compile(r'<img alt="veins" src="data:image/png;base64,[\w+/=]{500,}">')
+PICTURE = re.compile(
+    r'<img alt="veins" style="width:(\d+)px;max-width:100%;height:auto"'
+    r' src="data:image/png;base64,[\w+/=]{500,}">'
+)
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +61,8 @@ def test_a_run_shows_itself_at_any_step(kind, tmp_path):
     for shown in (timeline, timeline.frame(0), timeline.frame(7), timeline.frame(7).network):
         assert PICTURE.search(shown._repr_html_()) or shown._repr_html_().count("<tr>") > 2
     text = timeline._repr_html_()
-    assert PICTURE.search(text)
+    # no wider than a third of a page, beside the facts
+    assert int(PICTURE.search(text)[1]) <= 180
     assert "<th>nodes</th>" in text
     assert "<th>model</th><td>synthetic</td>" in text
     fresh = timeline.frame(5)

@@ -10,11 +10,11 @@ import numpy as np
 
 from vasc.analysis.summaries import Summary, summed_up
 from vasc.config import Experiment, experiment_from_record
-from vasc.config.expected import expected_size, refuse_what_no_machine_holds
+from vasc.config.expected import ExpectedSize, refuse_what_no_machine_holds
+from vasc.config.foreseen import foreseen
 from vasc.errors import RunError, TimelineError
 from vasc.events import EventKind, StopReason
 from vasc.models.base import Model
-from vasc.models.colonization import Colonization
 from vasc.simulation import Observer, simulate
 from vasc.state import State
 from vasc.streams import Streams
@@ -44,6 +44,7 @@ def run(
     steps: int | None = None,
     observers: Iterable[Observer] = (),
     should_stop: Callable[[], bool] = never,
+    on_size: Callable[[ExpectedSize], None] | None = None,
 ) -> Summary:
     """Run an experiment from the start and record it.
 
@@ -63,6 +64,8 @@ def run(
         Shown every state, after the recorder.
     should_stop : callable
         Asked after every step; when it says so, the run ends and can be resumed.
+    on_size : callable, optional
+        Told how large the run may become, before it begins.
 
     Returns
     -------
@@ -82,8 +85,10 @@ def run(
     started = time.perf_counter()
     parameters = experiment.parameters
     model = experiment.model()
-    if not large and isinstance(model, Colonization):
-        size = expected_size(parameters, model.growth)
+    size = foreseen(parameters, model)
+    if on_size is not None:
+        on_size(size)
+    if not large:
         refuse_what_no_machine_holds(size, Path(output), experiment.label or experiment.name)
     streams = Streams(parameters.seed, parameters.stream_names)
     state = model.initial_state(streams)

@@ -9,9 +9,10 @@ import numpy as np
 
 from vasc.arrays import Ids, Points
 
-SIDE = 2.4
-"""Longer side of a picture, in inches."""
-DPI = 120
+SIDE = 1.8
+"""Longer side of a picture, in inches of a screen, which has 96 pixels there."""
+DPI = 192
+"""Twice that, so that screens of high resolution show fine veins."""
 VEIN, BLADE, MARGIN = "#1f3d1c", "#dcebd0", "#6f9463"
 WIDEST, FINEST = 1.2, 0.25
 """Width of the veins of a network of few segments, and of many, in pt."""
@@ -45,7 +46,7 @@ def card(title: str, facts: Mapping[str, Callable[[], object]], picture: Callabl
     drawn = _tried(picture) or ""
     return (
         f"<div><b>{html.escape(title)}</b>"
-        f'<div style="display:flex;align-items:flex-start;gap:1em">{drawn}'
+        f'<div style="display:flex;flex-wrap:wrap;align-items:flex-start;gap:1em">{drawn}'
         f"<table>{''.join(rows)}</table></div></div>"
     )
 
@@ -93,7 +94,9 @@ def picture_of(positions: Points, segments: Ids, rings: Sequence[Points] = ()) -
     picture = io.BytesIO()
     figure.savefig(picture, format="png", dpi=DPI, metadata={"Software": None})
     text = base64.b64encode(picture.getvalue()).decode("ascii")
-    return f'<img alt="veins" src="data:image/png;base64,{text}">'
+    width = round(96 * float(inches[0]))
+    style = f'style="width:{width}px;max-width:100%;height:auto"'
+    return f'<img alt="veins" {style} src="data:image/png;base64,{text}">'
 
 
 def _tried(ask: Callable[[], object]) -> object:

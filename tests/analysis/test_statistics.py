@@ -142,6 +142,26 @@ def test_without_widths_what_needs_them_is_none():
     }
 
 
+def test_enclosed_density_counts_enclosed_veins_alone():
+    # a square of side 4 in two halves, with a spur in one and a loop on its own in the other;
+    # a tail outside, and a bridge to a triangle
+    points = [(0, 0), (4, 0), (4, 4), (0, 4), (2, 0), (2, 4)]
+    points += [(1, 0), (1, 1), (0, -3), (2.5, 1), (3.5, 1), (3, 2)]
+    points += [(9, 4), (10, 4), (9, 5)]
+    veins = [(0, 6), (6, 4), (4, 1), (1, 2), (2, 5), (5, 3), (3, 0), (4, 5)]
+    veins += [(6, 7), (0, 8), (9, 10), (10, 11), (11, 9), (2, 12), (12, 13), (13, 14), (14, 12)]
+    net = network(points, veins)
+    found = network_statistics(real(net))
+    side = np.sqrt(0.25 + 1.0)
+    inside = 16.0 + 4.0 + 1.0 + (1.0 + 2.0 * side) + (2.0 + np.sqrt(2.0))
+    assert found["enclosed_area"] == pytest.approx(16.5)
+    assert found["enclosed_vein_density"] == pytest.approx(inside / 16.5)
+    assert found["vein_density"] == pytest.approx((inside + 3.0 + 5.0) / 16.5)
+    on_a_blade = statistics(PlainMoment(without_seeds(net), square_blade(40.0), sources()))
+    assert on_a_blade["enclosed_vein_density"] == found["enclosed_vein_density"]
+    assert on_a_blade["vein_density"] == pytest.approx((inside + 8.0) / 1600.0)
+
+
 def test_a_seed_makes_the_shuffles():
     net = honeycomb(12, 12)
     widths = np.random.default_rng(5).uniform(1.0, 9.0, net.n_segments)

@@ -140,7 +140,7 @@ def states(n_states):
 def test_progress_is_written_ten_times_a_second_at_most(monkeypatch):
     screen, clock = Screen(), iter(np.arange(0.0, 10.0, 0.001).tolist())
     monkeypatch.setattr("sys.stderr", screen)
-    monkeypatch.setattr("vasc.cli.progress.time.perf_counter", lambda: next(clock))
+    monkeypatch.setattr("vasc.cli.terminal_line.time.perf_counter", lambda: next(clock))
     monkeypatch.setenv("COLUMNS", "120")
     with ProgressLine() as progress:
         for state in states(3000):
@@ -151,7 +151,7 @@ def test_progress_is_written_ten_times_a_second_at_most(monkeypatch):
     shown = r"step 2,9\d\d  time 29\d\d  blade 29\d\d D  nodes 1,234  sources 7  1,000 steps/s"
     assert re.fullmatch(r"\r\x1b\[K" + shown, lines[-1])
     monkeypatch.setenv("COLUMNS", "20")
-    progress._write("x" * 100)
+    progress.write("x" * 100)
     assert screen.pieces[-1] == "\r\x1b[K" + "x" * 19
 
 

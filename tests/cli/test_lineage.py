@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from reference.stem_run import STEM
 
 from vasc.analysis import WidthParameters, run_node_orders
 from vasc.cli import main
+from vasc.cli.lineage_tables import said
 from vasc.timeline import Timeline
 
 TABLES = {
@@ -101,8 +103,16 @@ def test_an_areole_that_was_found_is_told_like_one_that_was_recorded(leaf, capsy
 @pytest.mark.parametrize(
     ("arguments", "part"),
     [
-        (["--fates", "--births"], "or one table"),
-        (["--fates", "--node", "1"], "or one table"),
+        ([], "--life-table, --births, --genealogy"),
+        ([], "for example: vasc lineage RUN.h5 --life-table"),
+        (["--fates", "--births"], "--fates and --births are questions of their own"),
+        (["--fates", "--node", "1"], "--node and --fates are questions of their own"),
+        (["--genealogy", "--at", "1,2"], "--at and --genealogy are questions of their own"),
+        (["--at", "1;2"], "must be two numbers X,Y"),
+        (["--at", "1,2,3"], "must be two numbers X,Y"),
+        (["--at", "1,nan"], "must be two numbers X,Y"),
+        (["--at", "1000,0"], "off the blade"),
+        (["--fates", "--step", "3"], "--step is for --at"),
         (["--node", "1", "--csv"], "--csv is for tables"),
         (["--fates", "--csv", "--json"], "excludes --json"),
         (["--competitors", "99999"], "there is no source 99999"),
@@ -125,6 +135,24 @@ def test_a_stem_has_tables_of_its_veins_and_no_areoles(tmp_path, capsys):
     for option in (["--genealogy"], ["--loop", "0"], ["--areole", "0"]):
         assert main(["lineage", run, *option]) == 2
         assert "is a stem" in capsys.readouterr().err
+
+
+def test_the_median_life_stands_below_the_life_table(leaf, capsys):
+    with Timeline(leaf) as timeline:
+        median = timeline.lineage.median_life()
+    last = output(["lineage", leaf, "--life-table"], capsys).splitlines()[-1]
+    assert last.startswith(f"median life: {median.age} steps (95 % interval {median.low} to ")
+    told = json.loads(output(["lineage", leaf, "--life-table", "--json"], capsys))["median"]
+    assert (told["age"], told["n"]) == (median.age, median.n)
+    not_yet = said(replace(median, age=None, n=4, deaths=1, censored=3, least_survival=0.75))
+    assert "not reached, 0.75 live on" in not_yet
+
+
+def test_survival_is_drawn(leaf, tmp_path, capsys):
+    picture = str(tmp_path / "survival.svg")
+    assert "written" in output(["render", leaf, "-o", picture, "--survival"], capsys)
+    assert main(["render", leaf, "-o", picture, "--force", "--survival", "--step", "3"]) == 2
+    assert "takes no --step" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("form", ["--genealogy", "--births"])

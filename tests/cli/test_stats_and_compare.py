@@ -80,15 +80,21 @@ class TestCompare:
         run, real = found["statistics"]
         assert run == json.loads(output(["stats", leaf, "--json"], capsys))
         assert real == json.loads(output(["stats", DALBERGIA, "--json"], capsys))
-        lines = {
-            line.split()[0]: line.split()[1:]
-            for line in output(["compare", leaf, DALBERGIA], capsys).splitlines()[1:]
-        }
+        said = output(["compare", leaf, DALBERGIA], capsys).splitlines()[1:]
+        lines = {line.split()[0]: line.split()[1:] for line in said if line}
         # um and px: no ratio of lengths
-        assert lines["vein_length"][-1] == "-"
+        assert lines["vein_length"][-3] == "-"
         ratio = real["mst_ratio"] / run["mst_ratio"]
-        assert float(lines["mst_ratio"][-1]) == pytest.approx(ratio, abs=5e-4)
+        assert float(lines["mst_ratio"][-3]) == pytest.approx(ratio, abs=5e-4)
         assert "orders.1.length" in lines
+        # the blade of the run, and of the leaf what its veins enclose
+        assert found["on_different_areas"][0] == "vein_density"
+        assert lines["density_x_sqrt_areole"][-3] == "-"
+        key = "enclosed_density_x_sqrt_areole"
+        assert float(lines[key][-3]) == pytest.approx(real[key] / run[key], abs=5e-4)
+        assert lines["blade_area"][:3] == ["um^2", "|", "px^2"]
+        assert lines["areole_area_cv"][-2:] == [str(run["areoles"]), "6,398"]
+        assert lines["mst_ratio"][0] == lines["mst_ratio"][-1] == "-"
 
     def test_two_runs_and_where_they_part(self, leaf, other, capsys):
         found = json.loads(output(["compare", leaf, other, "--json"], capsys))
@@ -109,6 +115,7 @@ class TestCompare:
         found = json.loads(output(["compare", leaf, copy, "--json"], capsys))
         assert found["runs"]["first_difference"] is found["runs"]["first_event"] is None
         assert found["statistics"][0] == found["statistics"][1]
+        assert found["on_different_areas"] == []
         assert "the two runs are the same, bit for bit" in output(["compare", leaf, copy], capsys)
 
     def test_a_run_that_was_stopped_parts_where_it_ends(self, leaf, recorded, capsys):

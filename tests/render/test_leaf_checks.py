@@ -1,11 +1,14 @@
 """Pictures of the checks of leaves."""
 
 import pytest
+from matplotlib.colors import to_hex
 from reference.leaf_samples import small_report
 
 from vasc.errors import OutputError
 from vasc.render import draw_leaf_check, draw_leaf_checks, save_leaf_checks
 from vasc.render.leaf_checks import _PICTURES
+from vasc.render.leaf_panels import FAIL, looks
+from vasc.render.styles import TEXT_SIZE
 from vasc.validation.vein_statistics.checks import as_table, check_numbers
 
 
@@ -36,8 +39,8 @@ def test_distributions_are_drawn_as_they_are(suite):
 
 def test_one_sheet_holds_all(suite):
     figure = draw_leaf_checks(suite)
-    titles = {ax.get_title(loc="left") for ax in figure.axes} - {""}
-    assert titles == {f"check {number}" for number in _PICTURES}
+    titles = {int(ax.get_title(loc="left").split()[1]) for ax in figure.axes}
+    assert titles == set(_PICTURES)
 
 
 def test_a_folder_gets_a_picture_a_check(suite, tmp_path):
@@ -49,3 +52,44 @@ def test_a_folder_gets_a_picture_a_check(suite, tmp_path):
 def test_another_suffix_is_refused(suite, tmp_path):
     with pytest.raises(OutputError, match="suffix"):
         save_leaf_checks(suite, tmp_path / "leaves.txt")
+
+
+def test_a_check_that_fails_is_framed_and_says_value_and_range(suite):
+    failed = [one for one in suite["checks"] if one["check"] == 7 and not one["pass"]]
+    assert failed
+    for ax, panel in zip(draw_leaf_check(suite, 7).axes, _PICTURES[7][1], strict=True):
+        missed = [one for one in panel.checks(suite, 7) if not one["pass"]]
+        title = ax.get_title(loc="left")
+        assert title.startswith("check 7 FAILS" if missed else "check 7")
+        assert (to_hex(ax.spines["top"].get_edgecolor()) == FAIL) == bool(missed)
+        assert ax.spines["top"].get_visible() == bool(missed)
+        for one in missed:
+            assert f"{one['value']:.3g}, asked {one['low']:.3g} to {one['high']:.3g}" in title
+
+
+def test_every_check_belongs_to_a_panel(suite):
+    for one in suite["checks"]:
+        panels = _PICTURES[one["check"]][1]
+        assert any(one in panel.checks(suite, one["check"]) for panel in panels), one["what"]
+
+
+def test_words_and_numbers_along_the_axes_can_be_read(suite):
+    for ax in draw_leaf_checks(suite).axes:
+        if ax.axison:
+            words = [ax.xaxis.label, ax.yaxis.label, *ax.get_xticklabels(), *ax.get_yticklabels()]
+            assert min(text.get_fontsize() for text in words) >= TEXT_SIZE
+
+
+def test_a_sheet_of_leaves_without_growth_or_a_tree_leaves_their_panels_out(suite):
+    checks = [one for one in suite["checks"] if one["check"] not in (14, 15, 17)]
+    curves = suite["curves"] | {"densities": {}}
+    less = suite | {"exponents": [], "curves": curves, "checks": checks}
+    titles = {ax.get_title(loc="left").split()[1] for ax in draw_leaf_checks(less).axes}
+    assert not titles & {"14", "15", "17"}
+    assert "13" in titles
+
+
+def test_more_leaves_than_colors_look_different(suite):
+    names = [f"leaf {k}" for k in range(9)]
+    curves = {"degrees": dict.fromkeys([*names, "real"]), "real": ["real"]}
+    assert len(set(looks({"curves": curves}).values())) == 10

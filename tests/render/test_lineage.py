@@ -6,10 +6,13 @@ from matplotlib.collections import LineCollection, PolyCollection
 
 from vasc.config import load
 from vasc.errors import VascError
+from vasc.events import EventKind
 from vasc.experiment import run
-from vasc.render import draw_births, draw_genealogy
+from vasc.render import draw_births, draw_genealogy, draw_survival
+from vasc.render.births import MOST_BINS, bin_width
 from vasc.render.genealogy import MOST_TREES, _shown
 from vasc.timeline import Genealogy, Timeline
+from vasc.timeline.life_table import life_table, median_life
 
 
 @pytest.fixture(scope="module")
@@ -111,3 +114,97 @@ def test_numbers_of_small_trees_do_not_cover_each_other():
     at = np.sort(shown.heights[shown.loops])
     # a number is 5 pt high, and 6.25 inches are there for all
     assert np.diff(at).min() / np.nanmax(shown.heights) * 6.25 * 72.0 > 5.0
+
+
+def test_no_two_loops_have_one_colour_and_shades_have_a_key(timeline):
+    figure = draw_genealogy(timeline)
+    shown = _shown(timeline.lineage.genealogy())
+    assert len({shown.colors[loop] for loop in shown.loops}) == len(shown.loops)
+    trees = figure.axes[1]
+    said = [text.get_text() for text in trees.get_legend().get_texts()]
+    deepest = int(timeline.lineage.genealogy().generations.max())
+    assert said[0] == "loop itself"
+    assert said[-1].startswith(f"after {deepest} split")
+    assert "step" in trees.get_xlabel()
+    assert trees.get_ylabel()
+
+
+def test_of_more_loops_than_colours_each_has_its_own():
+    steps = np.arange(MOST_TREES + 3, dtype=np.int32)
+    none = np.full(len(steps), -1, dtype=np.int32)
+    shown = _shown(Genealogy(steps, none, steps, none, {}))
+    assert len({shown.colors[loop] for loop in shown.loops}) == MOST_TREES
+
+
+@pytest.mark.parametrize("last", [0, 1, 59, 60, 61, 640, 2464, 10**6])
+def test_spans_of_births_are_whole_round_numbers_of_steps(last):
+    width = bin_width(last)
+    assert str(width).rstrip("0") in {"1", "2", "5"}
+    assert (last + 1) / width <= MOST_BINS
+    assert width == 1 or (last + 1) / width > MOST_BINS / 2.5 - 1
+
+
+def test_events_are_counted_by_whole_steps(timeline):
+    _, below = draw_births(timeline).axes
+    width = bin_width(timeline.last_step)
+    assert f"in {width} steps" in below.get_ylabel()
+    events = timeline.events
+    steps = events["step"][events["kind"] == EventKind.LOOP_CLOSED]
+    counted = {tuple(patch.get_data().values) for patch in below.patches}
+    n_spans = timeline.last_step // width + 1
+    assert tuple(np.bincount(steps // width, minlength=n_spans)) in {
+        values[:n_spans] for values in counted
+    }
+
+
+def test_names_of_what_changes_stand_above_the_veins(timeline, monkeypatch):
+    monkeypatch.setattr("vasc.render.births.SPANS", {EventKind.LOOP_CLOSED: "a loop"})
+    above, _ = draw_births(timeline).axes
+    names = [text for text in above.texts if text.get_text() == "a loop"]
+    assert names
+    for name in names:
+        assert name.xy[1] == 1.0
+        assert name.xyann[1] > 0.0
+
+
+def test_survival_is_the_life_table_with_marks_of_censoring(timeline):
+    (axes,) = draw_survival(timeline).axes
+    table = timeline.lineage.life_table()
+    (curve,) = axes.patches
+    assert curve.get_data().values.tolist() == table["survival"].tolist()
+    marks = [line for line in axes.lines if line.get_marker() == "|"]
+    is_censored = table["censored"] > 0
+    assert bool(marks) == is_censored.any()
+    for line in marks:
+        assert line.get_xdata().tolist() == table["age"][is_censored].tolist()
+    said = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert f"median: {timeline.lineage.median_life().age} steps" in said
+
+
+class Watched:
+    """A timeline whose sources live as they are told."""
+
+    path = "watched.h5"
+
+    def __init__(self, births, deaths, last_step):
+        self.lineage = self
+        self.columns = np.array(births, dtype=np.int32), np.array(deaths, dtype=np.int32), last_step
+
+    def life_table(self):
+        return life_table(*self.columns)
+
+    def median_life(self):
+        return median_life(self.life_table())
+
+
+def test_a_median_that_is_not_reached_is_said_and_the_censored_are_marked():
+    (axes,) = draw_survival(Watched([0, 0, 0, 5], [3, -1, -1, -1], 10)).axes
+    said = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert "median: not reached" in said
+    (marks,) = (line for line in axes.lines if line.get_marker() == "|")
+    assert marks.get_xydata().tolist() == [[5.0, pytest.approx(0.75)], [10.0, pytest.approx(0.75)]]
+
+
+def test_without_a_source_there_is_no_survival():
+    with pytest.raises(VascError, match="no source appeared"):
+        draw_survival(Watched([], [], 10))

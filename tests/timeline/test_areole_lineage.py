@@ -1,14 +1,18 @@
 """The genealogy of areoles, in a real leaf until its first loops are split."""
 
 import json
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
+from reference.networks import network
 
 from vasc.cli import main
 from vasc.config import load
 from vasc.errors import TimelineError
 from vasc.experiment import run
 from vasc.timeline import Timeline
+from vasc.timeline.place_history import history_at
 
 STEPS = 240
 
@@ -86,3 +90,72 @@ def test_a_run_without_areoles_says_so(tmp_path):
         pytest.raises(TimelineError, match="there is no areole 0; the run has none"),
     ):
         young.lineage.areole(0)
+
+
+def test_a_place_tells_its_vein_its_source_and_its_areoles(timeline):
+    frame, lineage = timeline.frame(STEPS), timeline.lineage
+    tree = lineage.genealogy(STEPS)
+    child = lineage.areole(0).children[0]
+    # beside the middle of a side of the areole, on its left, which is within
+    ring = frame.positions[tree.boundaries[child]]
+    a, b = ring[0], ring[1]
+    along = b - a
+    x, y = ((a + b) / 2.0 + 0.05 * np.array([-along[1], along[0]])).tolist()
+    found = lineage.at(x, y, STEPS)
+    assert found.distance == pytest.approx(0.05 * np.hypot(*along))
+    assert found.areoles == (0, child)
+    assert found.areole_births == (lineage.areole(0).birth, lineage.areole(child).birth)
+    ends = timeline.table("segments", "nodes")[found.segment].tolist()
+    assert sorted(ends) == sorted(tree.boundaries[child][:2].tolist())
+    assert found.node == max(ends)
+    assert found.vein == lineage.veins.firsts[found.node]
+    assert found.source == lineage.source_of(found.node)
+    assert found.source_birth == lineage.fate_of(found.source).birth
+    # before the split the parent was there
+    assert lineage.at(*young_place(timeline, 0)).areoles == (0,)
+
+
+def young_place(timeline, areole):
+    """A place in the middle of an areole a step before it is split, and that step."""
+    step = timeline.lineage.areole(areole).split - 1
+    frame = timeline.frame(step)
+    areoles = frame.areoles
+    ring = dict(zip(areoles.ids.tolist(), areoles.boundaries, strict=True))[areole]
+    return (*frame.positions[ring].mean(axis=0).tolist(), step)
+
+
+def test_a_place_on_open_tissue_is_in_no_areole_and_one_off_the_blade_is_refused(timeline):
+    high = timeline.frame(STEPS).blade.bounds[3]
+    found = timeline.lineage.at(0.0, high - 0.5)
+    assert (found.areole, found.areoles) == (-1, ())
+    with pytest.raises(TimelineError, match=r"the place 500,0 is off the blade, \d+\.?\d* D from"):
+        timeline.lineage.at(500.0, 0.0)
+    with pytest.raises(TimelineError, match="step 9999 is not recorded"):
+        timeline.lineage.at(0.0, 1.0, 9999)
+
+
+def test_without_a_vein_nothing_is_near():
+    class Bare:
+        path, dimensions = "bare.h5", 2
+
+        def n_rows(self, table):
+            return 0
+
+        def frame(self, step=-1):
+            return SimpleNamespace(
+                step=0, network=network([(0, 0)], []), positions=np.zeros((1, 2))
+            )
+
+    with pytest.raises(TimelineError, match="there is no vein at step 0"):
+        history_at(Bare(), Bare().frame(), None, {}, (0.0, 0.0))
+
+
+def test_the_command_line_tells_a_place(path, capsys):
+    assert main(["lineage", str(path), "--at", "-3,20", "--step", "230", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    with Timeline(path) as timeline:
+        found = timeline.lineage.at(-3.0, 20.0, 230)
+    assert (told["segment"], told["vein"], told["step"]) == (found.segment, found.vein, 230)
+    assert told["areoles"] == list(found.areoles)
+    assert main(["lineage", str(path), "--at", "900,1"]) == 2
+    assert "off the blade" in capsys.readouterr().err

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from reference.lineages import life_table as plain_life_table
 
-from vasc.timeline.life_table import life_table
+from vasc.timeline.life_table import life_table, median_life
 
 DIED = [6, 6, 6, 7, 10, 13, 16, 22, 23]
 CENSORED = [6, 9, 10, 11, 17, 19, 20, 25, 32, 32, 34, 35]
@@ -60,3 +60,31 @@ def test_any_lives_give_the_numbers_that_counting_gives(lives):
     survival, low, high = (table[name][is_known] for name in ("survival", "low", "high"))
     assert ((low <= survival) & (survival <= high)).all()
     assert ((low >= 0.0) & (high <= 1.0)).all()
+
+
+def test_the_median_and_its_interval_are_the_published_ones():
+    last_step = 40
+    births = np.array([0] * len(DIED) + [last_step - age for age in CENSORED], dtype=np.int32)
+    deaths = np.array(DIED + [-1] * len(CENSORED), dtype=np.int32)
+    found = median_life(life_table(births, deaths, last_step))
+    # 23 weeks; by the log-log interval from 13 on, without an upper limit
+    assert (found.age, found.low, found.high) == (23, 13, None)
+    assert (found.n, found.deaths, found.censored) == (21, 9, 12)
+
+
+def test_a_median_may_not_be_reached_and_nobody_has_none():
+    found = median_life(life_table(np.array([0, 0, 0]), np.array([2, -1, -1]), 9))
+    assert found.age is None
+    assert found.least_survival == pytest.approx(2.0 / 3.0)
+    nobody = median_life(life_table(np.empty(0, "i4"), np.empty(0, "i4"), 9))
+    assert (nobody.age, nobody.n) == (None, 0)
+
+
+@given(LIVES)
+def test_a_median_is_the_first_age_that_at_most_half_outlive(lives):
+    births = np.array([birth for birth, _ in lives], dtype=np.int32)
+    deaths = np.array([-1 if age is None else birth + age for birth, age in lives], dtype=np.int32)
+    expected = plain_life_table(births.tolist(), deaths.tolist(), 30)
+    halves = [age for age, row in enumerate(expected) if row[2] <= 0.5 + 1e-9]
+    found = median_life(life_table(births, deaths, 30))
+    assert found.age == (halves[0] if halves else None)

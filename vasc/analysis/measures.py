@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
 Numbers = dict[str, Any]
 
+ROUNDING = 1e-9
+"""Share of the longer side of a network that a place on a rim may be off it."""
+
 
 @dataclass(frozen=True)
 class Measured:
@@ -59,6 +62,33 @@ class Measured:
     def enclosed_area(self) -> float:
         """Area that veins enclose."""
         return float(self.areoles.areas.sum())
+
+    @cached_property
+    def region(self) -> "shapely.Geometry":
+        """The region that veins enclose."""
+        return enclosed_region(self.sections)
+
+    @cached_property
+    def enclosed_length(self) -> float:
+        """Length of the veins around areoles and of those that end in one."""
+        import shapely
+
+        sections = self.sections
+        if not self.areoles.n_areoles:
+            return 0.0
+        # no section crosses the rim, so that a place on it tells of all of it
+        places = sections.drawing.points[sections.points_walked[sections.begins[:-1]]].mean(axis=1)
+        rounding = ROUNDING * float(np.ptp(sections.drawing.points, axis=0).max())
+        region = self.region
+        shapely.prepare(region)
+        is_enclosed = shapely.dwithin(region, shapely.points(places), rounding)
+        return float(sections.lengths[is_enclosed].sum())
+
+    @property
+    def enclosed_density(self) -> float:
+        """Vein length per area of the region that veins enclose; nan without an areole."""
+        area = self.enclosed_area
+        return self.enclosed_length / area if area > 0.0 else float("nan")
 
     def areole_numbers(self) -> Numbers:
         """Give the numbers of the areoles; nan without any."""
@@ -96,7 +126,7 @@ class Measured:
 
     def distance_numbers(self, density: float) -> Numbers:
         """Give the numbers of the distance from tissue to the nearest vein."""
-        region = enclosed_region(self.sections) if self.blade is None else self.blade
+        region = self.region if self.blade is None else self.blade
         distances = distances_to_vein(self.sections, places_in(region))
         farthest = float(np.percentile(distances, 95)) if len(distances) else float("nan")
         return {

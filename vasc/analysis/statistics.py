@@ -111,11 +111,13 @@ def _numbers(network: VeinNetwork, measured: Measured, area: float, blade: Numbe
         "vein_density": density,
         **measured.areole_numbers(),
         "enclosed_area": measured.enclosed_area,
+        "enclosed_vein_density": measured.enclosed_density,
         "free_ends": ends,
         "free_ends_per_areole": ends / areoles.n_areoles if areoles.n_areoles else math.nan,
         "junction_degree": {str(degree): share for degree, share in degrees.items()},
         **measured.section_numbers(),
         "density_x_sqrt_areole": density * math.sqrt(areoles.mean_area),
+        "enclosed_density_x_sqrt_areole": measured.enclosed_density * math.sqrt(areoles.mean_area),
         **measured.distance_numbers(density),
         **measured.width_numbers(),
     }
@@ -145,6 +147,7 @@ POWERS = {
     "enclosed_area": 2,
     "vein_length": 1,
     "vein_density": -1,
+    "enclosed_vein_density": -1,
     "areole_area_mean": 2,
     "section_length_mean": 1,
     "distance_to_vein_mean": 1,
@@ -155,6 +158,52 @@ POWERS = {
     "length_mean": 1,
 }
 """Power of a length that a number is; all others have no unit."""
+
+ON_TISSUE = {
+    "vein_density",
+    "density_x_sqrt_areole",
+    "distance_to_vein_mean",
+    "distance_to_vein_median",
+    "distance_to_vein_p95",
+    "density_x_distance",
+}
+"""Numbers that refer to the whole blade where there is one, and else to the enclosed area."""
+
+
+SAMPLES = {
+    "areole_area_mean": "areoles",
+    "areole_area_cv": "areoles",
+    "areole_circularity_median": "areoles",
+    "areole_elongation_median": "areoles",
+    "areole_corners_mean": "areoles",
+    "areole_corners_variance": "areoles",
+    "free_ends_per_areole": "areoles",
+    "section_length_mean": "sections",
+    "section_length_cv": "sections",
+    "bohn_residual_median": "bohn_junctions",
+    "bohn_residual_shuffled": "bohn_junctions",
+    "bohn_angle_error_median": "bohn_junctions",
+    "loop_asymmetry": "areoles",
+    "loop_asymmetry_shuffled": "areoles",
+    "loop_asymmetry_weighted": "areoles",
+    "loop_asymmetry_weighted_shuffled": "areoles",
+    "width_mean": "segments",
+}
+"""By a mean or median, the key beside it of how many things it is taken over."""
+
+
+def unit_of(key: str, unit: str) -> str:
+    """Give the unit of a number, where lengths are in a unit; nothing for one without.
+
+    Examples
+    --------
+    >>> unit_of("blade_area", "mm"), unit_of("vein_density", "mm"), unit_of("nodes", "mm")
+    ('mm^2', '1/mm', '')
+    """
+    power = POWERS.get(key, 0)
+    if power == 0 or not unit:
+        return ""
+    return {1: unit, 2: f"{unit}^2", -1: f"1/{unit}"}[power]
 
 
 def _in_unit(numbers: Numbers, scale: float) -> Numbers:

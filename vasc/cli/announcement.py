@@ -8,6 +8,7 @@ from vasc.cli.failures import complain
 from vasc.cli.printing import file_size
 from vasc.cli.progress import ProgressLine
 from vasc.config import Experiment
+from vasc.config.expected import ExpectedSize
 from vasc.config.regime import regime
 from vasc.state import State
 from vasc.streams import Streams
@@ -32,6 +33,11 @@ class Announcement:
         self.experiment = experiment
         self.progress = progress
         self.is_made = False
+        self.size: ExpectedSize | None = None
+
+    def expect(self, size: ExpectedSize) -> None:
+        """Take note of how large the run may become."""
+        self.size = size
 
     def observe(self, state: State, streams: Streams) -> None:
         """Write it if it is not yet written."""
@@ -43,12 +49,19 @@ class Announcement:
         expected = regime(parameters)
         what = _description(self.experiment)
         typer.echo(f"{self.experiment.name}: {what}, seed {parameters.seed}")
-        for sentence in [*_tissue_sentences(state), *expected.sentences]:
+        for sentence in [*self._size(), *_tissue_sentences(state), *expected.sentences]:
             typer.echo(f"  {sentence}")
         # before the warnings, which go another way
         sys.stdout.flush()
         for warning in expected.warnings:
             complain(f"warning: {warning}")
+
+    def _size(self) -> list[str]:
+        """Say how large the run may become, if that is much."""
+        if self.size is None or not self.size.is_large:
+            return []
+        memory, file = file_size(self.size.memory), file_size(self.size.file)
+        return [f"may have {self.size.rows}, and take {memory} of memory and a file of {file}"]
 
 
 def _description(experiment: Experiment) -> str:

@@ -36,9 +36,17 @@ def compare(
     columns = [measured(path, at, seed) for path, at in zip(files, asked, strict=True)]
     runs = two_runs(one, other) if all(is_run) else None
     if as_json:
-        print_json({"a": str(one), "b": str(other), "statistics": columns, "runs": runs})
+        names = {"a": str(one), "b": str(other)}
+        apart = on_different_areas(*columns)
+        print_json(names | {"statistics": columns, "on_different_areas": apart, "runs": runs})
         return
-    print_table(("", str(one), str(other), "b / a"), rows_of(*columns))
+    header = ("", "unit", f"a: {one}", f"b: {other}", "b / a", "n of a", "n of b")
+    print_table(header, rows_of(*columns))
+    if apart := on_different_areas(*columns):
+        typer.echo(
+            f"\non different areas, the blade and what veins enclose: {', '.join(apart)};"
+            "\ncompare enclosed_vein_density and enclosed_density_x_sqrt_areole instead"
+        )
     if runs is not None:
         typer.echo()
         counts = [(kind, *pair) for kind, pair in runs["events"].items()]
@@ -50,19 +58,49 @@ def compare(
 
 
 def rows_of(one: dict[str, Any], other: dict[str, Any]) -> Iterator[tuple[Any, ...]]:
-    """Give name, both values, and their ratio where both are in one unit."""
+    """Give name, unit, both values, their ratio where it has a meaning, and of how many each is."""
     from vasc.analysis.statistics import POWERS
 
-    is_one_unit = one["length_unit"] == other["length_unit"]
+    units = [numbers["length_unit"] for numbers in (one, other)]
+    apart = on_different_areas(one, other)
     flat = [dict(flattened(numbers)) for numbers in (one, other)]
     for name in dict.fromkeys([*flat[0], *flat[1]]):
+        key = name.rpartition(".")[2]
         values = flat[0].get(name), flat[1].get(name)
-        has_unit = name.rpartition(".")[2] in POWERS
+        is_comparable = name not in apart and (units[0] == units[1] or key not in POWERS)
         are_numbers = all(isinstance(value, int | float) for value in values)
         ratio = None
-        if are_numbers and values[0] and (is_one_unit or not has_unit) and name != "step":
+        if are_numbers and values[0] and is_comparable and name != "step":
             ratio = f"{values[1] / values[0]:.3f}"
-        yield name, *values, ratio
+        counts = (_sample(numbers, name) for numbers in flat)
+        yield name, _units(key, units), *values, ratio, *counts
+
+
+def on_different_areas(one: dict[str, Any], other: dict[str, Any]) -> list[str]:
+    """Give the numbers that are of a blade on one side and of the enclosed area on the other."""
+    from vasc.analysis.statistics import ON_TISSUE
+
+    # a stem has none of them
+    has_blade = [numbers["blade_area"] is not None for numbers in (one, other)]
+    return [key for key in one if key in ON_TISSUE] if has_blade[0] != has_blade[1] else []
+
+
+def _units(key: str, units: list[str | None]) -> str | None:
+    """Give the unit of a number on both sides, once if it is the same."""
+    from vasc.analysis.statistics import unit_of
+
+    return " | ".join(dict.fromkeys(unit_of(key, unit or "?") for unit in units)) or None
+
+
+def _sample(flat: dict[str, Any], name: str) -> int | None:
+    """Give over how many things a number is taken, None where it is no mean."""
+    from vasc.analysis.statistics import SAMPLES
+
+    before, dot, key = name.rpartition(".")
+    if key not in SAMPLES or flat.get(name) is None:
+        return None
+    found: int | None = flat.get(before + dot + SAMPLES[key])
+    return found
 
 
 def flattened(numbers: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:

@@ -15,6 +15,7 @@ EXAMPLES = (
     "vasc export sweetgum-leaf.h5 -o leaf.swc",
     "vasc export stem-golden-5-8.h5 -o stem.glb",
     "vasc export poplar-leaf.h5 -o tissue.toml --step 60 --cell 2",
+    "vasc export poplar-leaf.h5 -o poplar.crate --author 'A. Botanist'",
 )
 
 
@@ -34,6 +35,14 @@ def export(
         float | None,
         typer.Option("--cell", metavar="D", help="Width of a cell of a tissue in D; by default 2."),
     ] = None,
+    authors: Annotated[
+        list[str] | None,
+        typer.Option("--author", metavar="NAME", help="Of a crate: who made the run; repeat."),
+    ] = None,
+    license: Annotated[
+        str | None,
+        typer.Option("--license", metavar="URL", help="Of a crate: the licence of the run."),
+    ] = None,
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
@@ -43,15 +52,24 @@ def export(
     veins of true width, a layer an order. csv: folder of tables. vtp, pvd: VTK PolyData, one step
     or a series for ParaView. swc, mtg: trees, of runs whose veins do not join. ply, obj, glb, gltf:
     solid model of the veins of a leaf or stem. toml: outline, veins and live sources of a leaf as
-    the config of a tissue, for `vasc run`.
+    the config of a tissue, for `vasc run`. A name that ends in crate, as leaf.crate or crate/: a
+    folder with the run, its config, pictures and tables of a step, software and citation, as a
+    Research Object Crate.
 
     Lengths are in D, or in the unit that the config gives; of a tissue, in widths of a cell.
     """
     from vasc import export as exports
-    from vasc.cli.printing import print_json
     from vasc.cli.run import check_folder, check_picture
+    from vasc.crates import export_crate, is_crate
     from vasc.errors import OutputError
 
+    if is_crate(output):
+        _refuse_all_but_step(output, every, cell, spanning_tree=spanning_tree)
+        file = export_crate(path, output, step, authors=authors or (), license=license, force=force)
+        _tell(file, as_json=as_json)
+        return
+    if authors or license is not None:
+        raise OutputError(f"{output}: --author and --license are for a crate")
     is_tissue = output.suffix.lower() == exports.TISSUE_SUFFIX
     if cell is not None and not is_tissue:
         raise OutputError(f"{output}: --cell is for a tissue, {exports.TISSUE_SUFFIX}")
@@ -67,6 +85,23 @@ def export(
         file = exports.export(
             path, output, step, force=force, every=every, spanning_tree=spanning_tree
         )
+    _tell(file, as_json=as_json)
+
+
+def _refuse_all_but_step(
+    output: Path, every: int | None, cell: float | None, *, spanning_tree: bool
+) -> None:
+    """Refuse options that a crate does not have."""
+    from vasc.errors import OutputError
+
+    if every is not None or cell is not None or spanning_tree:
+        raise OutputError(f"{output}: --every, --cell and --spanning-tree are not for a crate")
+
+
+def _tell(file: Path, *, as_json: bool) -> None:
+    """Say what was written."""
+    from vasc.cli.printing import print_json
+
     if as_json:
         print_json({"files": [str(file)]})
     else:

@@ -21,15 +21,21 @@ def print_leaves(suite: dict) -> None:
     print_table(("check", "what", "leaf", "verdict", "value", "asked"), rows)
     typer.echo("\nreported, deciding nothing")
     told = [
-        (one["name"], f"{one['value']:.4g}", one["seen"], one["source"])
+        (
+            one["name"],
+            None if one["value"] is None else f"{one['value']:.4g}",
+            one["seen"],
+            one["source"],
+        )
         for one in suite["reported"]
     ]
     print_table(("what", "value", "in the literature", "source"), told)
     failed = [check for check in suite["checks"] if not check["pass"]]
     n_checks = len(suite["checks"])
-    typer.echo(f"\n{n_checks - len(failed)} of {n_checks} checks pass; not")
-    reasons = [(one["name"], _against(one), one["source"]) for one in failed]
-    print_table(("what", "why", "source of the range"), reasons)
+    typer.echo(f"\n{n_checks - len(failed)} of {n_checks} checks pass{'; not' if failed else ''}")
+    if failed:
+        reasons = [(one["name"], _against(one), one["source"]) for one in failed]
+        print_table(("what", "why", "source of the range"), reasons)
     for name in suite["control_failures"]:
         typer.echo(f"the real leaf fails {name}: that check is wrong, not the leaf")
 

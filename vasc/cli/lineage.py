@@ -1,5 +1,8 @@
 """``vasc lineage``: where a vein came from, and what became of a source or an areole."""
 
+import math
+from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -13,6 +16,8 @@ if TYPE_CHECKING:
 LONGEST_LIST = 12
 """Ids of a list that are shown to people; JSON holds all."""
 
+OPTIONS = {"areoles": "--genealogy"}
+"""Options whose table is called otherwise."""
 
 EXAMPLES = (
     "vasc lineage poplar-leaf.h5 --node 1000",
@@ -20,6 +25,7 @@ EXAMPLES = (
     "vasc lineage arabidopsis-first-leaf.h5 --areole 0",
     "vasc lineage poplar-leaf.h5 --competitors 10",
     "vasc lineage poplar-leaf.h5 --life-table --csv",
+    "vasc lineage poplar-leaf.h5 --at 20,150",
 )
 
 # short names of what the options below are
@@ -27,6 +33,7 @@ Node = typer.Option("--node", min=0, help="A vein node: its descent.")
 Source = typer.Option("--source", min=0, help="An auxin source: what became of it.")
 Areole = typer.Option("--areole", min=0, help="An areole: where it came from, how it was split.")
 Loop = typer.Option("--loop", min=0, help="A vein node: the loop in which its vein lies.")
+At = typer.Option("--at", metavar="X,Y", help="A place, in D: its vein, source and areoles.")
 Competitors = typer.Option("--competitors", min=0, help="A source: the veins it ever attracted.")
 LifeTable = typer.Option("--life-table", help="Survival of sources against age.")
 Fates = typer.Option("--fates", help="What became of every source.")
@@ -40,6 +47,10 @@ def lineage(
     source: Annotated[int | None, Source] = None,
     areole: Annotated[int | None, Areole] = None,
     loop: Annotated[int | None, Loop] = None,
+    at: Annotated[str | None, At] = None,
+    step: Annotated[
+        int | None, typer.Option("--step", min=-1, help="The step of --at; the last if left out.")
+    ] = None,
     competitors: Annotated[int | None, Competitors] = None,
     life_table: Annotated[bool, LifeTable] = False,
     fates: Annotated[bool, Fates] = False,
@@ -56,7 +67,13 @@ def lineage(
     from vasc.cli.printing import print_json, print_pairs
     from vasc.timeline import Timeline
 
-    ids = ((node_lineage, node), (source_fate, source), (areole_fate, areole), (vein_loop, loop))
+    ids: tuple[tuple[str, Callable[..., dict[str, Any]], Any], ...] = (
+        ("--node", node_lineage, node),
+        ("--source", source_fate, source),
+        ("--areole", areole_fate, areole),
+        ("--loop", vein_loop, loop),
+        ("--at", partial(history, step=-1 if step is None else step), at),
+    )
     flags = {
         "life_table": life_table,
         "fates": fates,
@@ -64,10 +81,12 @@ def lineage(
         "areoles": genealogy,
         "competitors": competitors is not None,
     }
-    asked = [(tell, row) for tell, row in ids if row is not None]
+    asked = {name: (tell, value) for name, tell, value in ids if value is not None}
     tables = [name for name, is_asked in flags.items() if is_asked]
-    if len(asked) + len(tables) != 1:
-        raise typer.BadParameter("give one of --node ID, --source ID and --areole ID, or one table")
+    options = [OPTIONS.get(name, "--" + name.replace("_", "-")) for name in tables]
+    _check_choice([*asked, *options])
+    if step is not None and at is None:
+        raise typer.BadParameter("--step is for --at")
     if as_csv and (as_json or asked):
         raise typer.BadParameter("--csv is for tables, and excludes --json")
     with Timeline(path) as timeline:
@@ -77,12 +96,43 @@ def lineage(
             table = lineage_tables.asked_for(timeline, tables[0], competitors)
             lineage_tables.write(tables[0], table, limit, as_csv=as_csv, as_json=as_json)
             return
-        tell, row = asked[0]
-        found = tell(timeline, row)
+        ((tell, value),) = asked.values()
+        found = tell(timeline, value)
     if as_json:
         print_json(found)
     else:
         print_pairs({name: _shortened(value) for name, value in found.items()})
+
+
+def _check_choice(given: list[str]) -> None:
+    """Refuse no question and more than one, and tell which there are."""
+    if len(given) > 1:
+        raise typer.BadParameter(f"{' and '.join(given)} are questions of their own: give one")
+    if not given:
+        raise typer.BadParameter(
+            "give one of --node ID, --source ID, --areole ID, --loop NODE, --at X,Y, or a table:"
+            " --fates, --life-table, --births, --genealogy, --competitors SOURCE;"
+            " for example: vasc lineage RUN.h5 --life-table"
+        )
+
+
+def history(timeline: "Timeline", at: str, step: int) -> dict[str, Any]:
+    """Give what is at a place and how it came to be, in JSON values; null is None."""
+    from dataclasses import asdict
+
+    words = at.split(",")
+    try:
+        x, y = (float(word) for word in words)
+    except ValueError:
+        x = y = math.nan
+    if not (math.isfinite(x) and math.isfinite(y)):
+        raise typer.BadParameter(f"--at {at!r}: must be two numbers X,Y, in D, as 12.5,80")
+    found = asdict(timeline.lineage.at(x, y, step))
+    lists = {name: list(found[name]) for name in ("place", "areoles", "areole_births")}
+    return {
+        name: lists.get(name, _known(value) if isinstance(value, int) else value)
+        for name, value in found.items()
+    }
 
 
 def node_lineage(timeline: "Timeline", node: int) -> dict[str, Any]:

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from vasc.timeline import Timeline
+    from vasc.timeline.life_table import MedianLife
 
 NEVER_NULL = {"time", "height", "survival", "standard_error", "low", "high", "median"}
 """Columns of real numbers, in which -1 would be a number like others."""
@@ -54,6 +55,7 @@ def write(
         How; for people if neither.
     """
     from vasc.cli.printing import print_json, print_table
+    from vasc.timeline.life_table import median_life
     from vasc.timeline.veins import births_by_order
 
     n_rows = len(next(iter(table.values())))
@@ -67,6 +69,8 @@ def write(
         found: dict[str, Any] = {"found": n_rows, name: records(table, limit)}
         if name == "births":
             found["by_order"] = records(births_by_order(table), None)
+        if name == "life_table":
+            found["median"] = _in_json(median_life(table))
         print_json(found)
     else:
         shown = births_by_order(table) if name == "births" else table
@@ -74,6 +78,32 @@ def write(
         n_shown = len(next(iter(shown.values())))
         if limit is not None and limit < n_shown:
             typer.echo(f"... and {n_shown - limit:,} more")
+        if name == "life_table":
+            typer.echo(f"\n{said(median_life(table))}")
+
+
+def said(median: "MedianLife") -> str:
+    """Say the median of a life table in one line."""
+    of = (
+        f"of {median.n:,} sources, {median.deaths:,} of which died and {median.censored:,} lived"
+        " at the last step"
+    )
+    if not median.n:
+        return "median life: none, for there is no source"
+    if median.age is None:
+        left = f"{median.least_survival:.3g} live on at the greatest age"
+        return f"median life: not reached, {left}; {of}"
+    low, high = ("not reached" if age is None else f"{age:,}" for age in (median.low, median.high))
+    return f"median life: {median.age:,} steps (95 % interval {low} to {high}); {of}"
+
+
+def _in_json(median: "MedianLife") -> dict[str, Any]:
+    """Give a median in JSON values."""
+    from dataclasses import asdict
+
+    found = asdict(median)
+    survival = found.pop("least_survival")
+    return found | {"least_survival": survival if math.isfinite(survival) else None}
 
 
 def records(table: "Mapping[str, NDArray]", limit: int | None) -> list[dict[str, Any]]:

@@ -15,6 +15,7 @@ EXAMPLES = (
     "vasc render poplar-leaf.h5 -o growth.png --growth --step 0 --step 200 --step 500",
     "vasc render stem-golden-5-8.h5 -o flat.png --unroll",
     "vasc render arabidopsis-first-leaf.h5 -o tree.png --genealogy",
+    "vasc render poplar-leaf.h5 -o survival.png --survival",
 )
 
 
@@ -37,6 +38,9 @@ def render(
     births: Annotated[
         bool, typer.Option("--births", help="Draw births of veins: height above the base by step.")
     ] = False,
+    survival: Annotated[
+        bool, typer.Option("--survival", help="Draw which share of sources outlives an age.")
+    ] = False,
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
@@ -44,10 +48,15 @@ def render(
     from vasc import render as drawing
     from vasc.cli.printing import print_json
     from vasc.cli.run import check_picture
-    from vasc.timeline import Timeline
 
     check_picture(output, force=force)
-    forms = {"--growth": growth, "--unroll": unroll, "--genealogy": genealogy, "--births": births}
+    forms = {
+        "--growth": growth,
+        "--unroll": unroll,
+        "--genealogy": genealogy,
+        "--births": births,
+        "--survival": survival,
+    }
     chosen = [name for name, is_chosen in forms.items() if is_chosen]
     if len(chosen) > 1:
         raise typer.BadParameter(f"{chosen[0]} and {chosen[1]} exclude each other")
@@ -59,12 +68,8 @@ def render(
         from vasc.cli.growing import growth_figure
 
         file = save_figure(growth_figure(path, step or []), output)
-    elif genealogy or births:
-        if len(step or []) > 1:
-            raise typer.BadParameter(f"{chosen[0]} shows one step, give --step once")
-        draw = drawing.draw_genealogy if genealogy else drawing.draw_births
-        with Timeline(path) as timeline:
-            file = save_figure(draw(timeline, *(step or [])), output)
+    elif genealogy or births or survival:
+        file = save_figure(_lineage_figure(path, chosen[0], step or []), output)
     else:
         file = drawing.render(
             path,
@@ -79,6 +84,22 @@ def render(
         print_json({"files": [str(file)]})
     else:
         typer.echo(f"written: {file}")
+
+
+def _lineage_figure(path: Path, form: str, steps: list[int]) -> "Figure":
+    """Draw what a run's lineage tells, at one step if it is of a step."""
+    from vasc import render as drawing
+    from vasc.timeline import Timeline
+
+    if form == "--survival" and steps:
+        raise typer.BadParameter("--survival is of the whole run, and takes no --step")
+    if len(steps) > 1:
+        raise typer.BadParameter(f"{form} shows one step, give --step once")
+    with Timeline(path) as timeline:
+        if form == "--survival":
+            return drawing.draw_survival(timeline)
+        draw = drawing.draw_genealogy if form == "--genealogy" else drawing.draw_births
+        return draw(timeline, *steps)
 
 
 def save_figure(figure: "Figure", output: Path) -> Path:

@@ -1,12 +1,16 @@
 """``vasc run``: grow a leaf and record it."""
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from vasc.cli.options import AsJson, Force, MoreSteps, Quiet
+
+if TYPE_CHECKING:
+    from vasc.config import Experiment
 
 EXAMPLES = (
     "vasc run poplar-leaf",
@@ -54,13 +58,11 @@ def run(
     from vasc.cli.progress import ProgressLine
     from vasc.cli.start import load_numba
     from vasc.cli.summary import end_if_interrupted, print_summary
-    from vasc.config import load, parse_override
     from vasc.timeline.storage import check_output
 
     if figure is not None and no_figure:
         raise typer.BadParameter("--figure and --no-figure exclude each other")
-    overrides = [parse_override(change) for change in changes or ()]
-    experiment = load(config, [*overrides, *([] if seed is None else [(("seed",), seed)])])
+    experiment = changed(config, changes or (), seed)
     output = Path(f"{experiment.name}.h5") if output is None else output
     check_folder(output)
     check_output(output, force=force)
@@ -71,7 +73,8 @@ def run(
 
     with Interrupts() as interrupts, ProgressLine(quiet=quiet) as progress:
         load_numba()
-        announced = () if quiet or as_json else (Announcement(experiment, progress),)
+        announcement = Announcement(experiment, progress)
+        announced = () if quiet or as_json else (announcement,)
         summary = experiments.run(
             experiment,
             output,
@@ -80,6 +83,7 @@ def run(
             steps=steps,
             observers=[*announced, progress],
             should_stop=interrupts.should_stop,
+            on_size=announcement.expect,
         )
     end_if_interrupted(summary, interrupts)
     files = [output]
@@ -89,6 +93,20 @@ def run(
         files.append(render(output, figure, unroll=experiment.kind == "stem"))
     if as_json or not quiet:
         print_summary(summary, files, as_json=as_json)
+
+
+def changed(config: str, changes: Sequence[str], seed: int | None) -> "Experiment":
+    """Read a config with some values, and maybe the seed, replaced.
+
+    Raises
+    ------
+    ConfigError
+        If the config or a change is wrong.
+    """
+    from vasc.config import load, parse_override
+
+    overrides = [parse_override(change) for change in changes]
+    return load(config, [*overrides, *([] if seed is None else [(("seed",), seed)])])
 
 
 def check_outputs(config: str, output: Path, figure: Path | None, *, force: bool) -> None:

@@ -1,10 +1,9 @@
 """A line on the terminal that says how far a sweep is."""
 
-import shutil
-import sys
 import time
-from types import TracebackType
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING
+
+from vasc.cli.terminal_line import TerminalLine
 
 if TYPE_CHECKING:
     from vasc.sweeps import Progress
@@ -12,47 +11,24 @@ if TYPE_CHECKING:
 SECONDS_PER_LINE = 0.5
 
 
-class SweepProgress:
+class SweepProgress(TerminalLine):
     """Keeps one line of the terminal up to date, and removes it at the end.
-
-    It writes nothing when the error output is not a terminal.
 
     Parameters
     ----------
     quiet : bool
-        Write nothing in any case.
+        Write nothing, even on a terminal.
     """
 
     def __init__(self, *, quiet: bool = False) -> None:
-        self.is_shown = not quiet and sys.stderr.isatty()
-        self._began = time.monotonic()
-        self._next = 0.0
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        if self.is_shown:
-            self._write("")
+        super().__init__(SECONDS_PER_LINE, quiet=quiet)
+        self._began = time.perf_counter()
 
     def show(self, progress: "Progress") -> None:
         """Write the line anew if it is old enough."""
-        now = time.monotonic()
-        if self.is_shown and now >= self._next:
-            self._next = now + SECONDS_PER_LINE
-            self._write(line_of(progress, now - self._began))
-
-    @staticmethod
-    def _write(line: str) -> None:
-        """Replace what stands on the line."""
-        width = shutil.get_terminal_size().columns
-        sys.stderr.write(f"\r\x1b[K{line[: max(width - 1, 0)]}")
-        sys.stderr.flush()
+        now = self.due()
+        if now is not None:
+            self.write(line_of(progress, now - self._began))
 
 
 def line_of(progress: "Progress", seconds: float) -> str:

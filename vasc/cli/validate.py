@@ -15,6 +15,7 @@ EXAMPLES = (
     "vasc validate transitions -o transitions.png",
     "vasc validate canalization --n 200 -o canals.json",
     "vasc validate leaf -o leaves.png",
+    "vasc validate leaf mine.h5 leaf_edges.csv",
     "vasc validate --json",
 )
 
@@ -25,6 +26,13 @@ def validate(
     suite: Annotated[
         str | None,
         typer.Argument(metavar="[SUITE]", help=f"One of {', '.join(SUITES)}; all if left out."),
+    ] = None,
+    files: Annotated[
+        list[Path] | None,
+        typer.Argument(
+            metavar="[FILE]...",
+            help="With leaf: your recorded runs or real networks instead of the bundled runs.",
+        ),
     ] = None,
     output: Annotated[
         Path | None,
@@ -56,8 +64,8 @@ def validate(
     thresholds.
     canalization: whether canals reach the vein nodes that the open and the closed rule of
     geometry predict, by which model, and where not.
-    leaf: statistics of the veins of simulated leaves, against those of real ones. A folder as
-    --output gets a picture for each check.
+    leaf: statistics of the veins of simulated leaves, or of those of FILE..., against those of
+    real ones. A folder as --output gets a picture for each check.
     """
     from vasc.cli.canals import print_canalization
     from vasc.cli.leaves import print_leaves
@@ -66,11 +74,13 @@ def validate(
 
     if suite is not None and suite not in SUITES:
         raise ConfigError(f"suite = {suite!r}: must be one of {', '.join(SUITES)}")
+    if files and suite != "leaf":
+        raise ConfigError(f"{files[0]}: only the suite leaf judges files: vasc validate leaf FILE")
     if n is not None and suite not in (None, "canalization"):
         raise ConfigError(f"--n {n}: only the suite canalization draws scenarios")
     if output is not None:
         _check_output(output, suite, force=force)
-    suites = [run() for name, run in _suites(n).items() if suite in (None, name)]
+    suites = [run() for name, run in _suites(n, files or []).items() if suite in (None, name)]
     if output is not None:
         _write(output, suites)
     passed = all(check["pass"] for one in suites for check in one["checks"])
@@ -129,16 +139,19 @@ def _write(output: Path, suites: list[dict[str, Any]]) -> None:
     )
 
 
-def _suites(n: int | None) -> dict[str, Callable[[], dict[str, Any]]]:
+def _suites(n: int | None, files: list[Path]) -> dict[str, Callable[[], dict[str, Any]]]:
     """Give the suites, each ready to run."""
     from vasc.validation.canalization.suite import DEFAULT, validate_canalization
     from vasc.validation.growth_variants import validate_growth
     from vasc.validation.stem_suite import validate_stem
     from vasc.validation.stem_transitions import validate_transitions
-    from vasc.validation.vein_statistics import leaf_suite
+    from vasc.validation.vein_statistics import leaf_suite, validate_leaves
 
     def progress(name: str) -> None:
         typer.echo(f"running: {name}", err=True)
+
+    def own_leaves(progress: Callable[[str], None]) -> dict[str, Any]:
+        return validate_leaves(files, progress).as_suite()
 
     canals = partial(validate_canalization, n=DEFAULT if n is None else n)
     found: tuple[Callable[..., dict[str, Any]], ...] = (
@@ -146,7 +159,7 @@ def _suites(n: int | None) -> dict[str, Callable[[], dict[str, Any]]]:
         validate_stem,
         validate_transitions,
         canals,
-        leaf_suite,
+        own_leaves if files else leaf_suite,
     )
     return {name: partial(run, progress) for name, run in zip(SUITES, found, strict=True)}
 

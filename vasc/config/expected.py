@@ -30,6 +30,9 @@ BYTES_OF_SOURCE = 1_000
 BYTES_OF_DART = 170
 """Memory that the program and each row of a table take, the indexes of it included."""
 
+LARGE_MEMORY, LARGE_FILE = 1_000_000_000, 200_000_000
+"""Bytes from which a run says how large it may become before it begins."""
+
 FILE_BYTES_OF_RUN = 2_000_000
 FILE_BYTES_OF_NODE = 80
 FILE_BYTES_OF_SOURCE = 400
@@ -48,12 +51,27 @@ class ExpectedSize:
         Rows that there may be in the end.
     memory, file : int
         Bytes of both.
+    cells : int
+        Cells of a tissue.
     """
 
     sources: int
     nodes: int
     memory: int
     file: int
+    cells: int = 0
+
+    @property
+    def rows(self) -> str:
+        """What there may be, in words."""
+        if self.cells:
+            return f"{self.cells:,} cells"
+        return f"up to {self.nodes:,} nodes and {self.sources:,} sources"
+
+    @property
+    def is_large(self) -> bool:
+        """Whether a user wants to know before the run begins."""
+        return self.memory >= LARGE_MEMORY or self.file >= LARGE_FILE
 
 
 def expected_size(parameters: Any, growth: "Growth") -> ExpectedSize:
@@ -121,7 +139,7 @@ def refuse_what_no_machine_holds(size: ExpectedSize, output: Path, label: str) -
         If it is expected to take more than is free on the disk.
     """
     memory, free = memory_of_machine(), free_bytes(output)
-    expected = f"up to {size.nodes:,} nodes and {size.sources:,} sources"
+    expected = size.rows
     if memory is not None and size.memory > MEMORY_SHARE * memory:
         raise ConfigError(
             f"{label}: the run may have {expected} and take {size.memory / 1e9:.3g} GB of memory,"

@@ -1,12 +1,12 @@
 """What a suffix stands for, and how files and folders are written: whole, or not at all."""
 
-import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from vasc.errors import OutputError, VascError
 from vasc.export.drawing import svg
+from vasc.export.folders import check_folder, new_folder
 from vasc.export.graphml import graphml
 from vasc.export.meshes import StemMesh, mesh_of
 from vasc.export.polydata import steps_of, vtp, write_series
@@ -95,7 +95,7 @@ def export(
         if suffix == SERIES:
             _write_series(timeline, output, step, every, force=force)
         elif suffix in FOLDERS:
-            with _new_folder(output) as folder:
+            with new_folder(output) as folder:
                 write_tables(timeline, folder, step)
         else:
             _write(output, _content(timeline, suffix, step, spanning_tree), force=force)
@@ -114,14 +114,16 @@ def check_output(output: Path, *, force: bool = False) -> None:
     suffix = output.suffix.lower()
     check_suffix(output, SUFFIXES, elsewhere=(TISSUE_SUFFIX,))
     if suffix in FOLDERS:
-        _check_folder(output, FOLDERS[suffix], force=force)
+        names = FOLDERS[suffix]
+        check_folder(output, lambda path: path.is_file() and path.name in names, force=force)
         return
     if output.is_dir():
         raise OutputError(f"{output}: is a folder")
     if output.exists() and not force:
         raise OutputError(f"{output}: exists already; use --force to replace it")
     if suffix == SERIES:
-        _check_folder(output.with_suffix(""), (), force=force)
+        folder = output.with_suffix("")
+        check_folder(folder, lambda path: path.is_file() and path.suffix == ".vtp", force=force)
 
 
 def check_suffix(output: Path, suffixes: tuple[str, ...], elsewhere: tuple[str, ...] = ()) -> None:
@@ -169,7 +171,7 @@ def _write_series(
     """Write a series: its folder first, so that the collection names only what is there."""
     steps = steps_of(timeline, step, every)
     folder = output.with_suffix("")
-    with _new_folder(folder) as new:
+    with new_folder(folder) as new:
         lines = write_series(timeline, new, steps, folder.name)
     _write(output, as_bytes(lines), force=force)
 
@@ -183,48 +185,6 @@ def _write(output: Path, content: bytes, *, force: bool) -> None:
         publish(ready, output, force=force)
     finally:
         ready.unlink(missing_ok=True)
-
-
-@contextmanager
-def _new_folder(folder: Path) -> Iterator[Path]:
-    """Give an empty folder that takes its place, and that of an older one, when it is filled."""
-    folder = folder.resolve()
-    ready, old = beside(folder), beside(folder)
-    with writing(folder):
-        ready.mkdir()
-    try:
-        with writing(folder):
-            yield ready
-            if folder.exists():
-                folder.rename(old)
-            try:
-                ready.rename(folder)
-            except BaseException:
-                if old.exists():
-                    old.rename(folder)
-                raise
-    finally:
-        for left in (ready, old):
-            shutil.rmtree(left, ignore_errors=True)
-
-
-def _check_folder(folder: Path, names: tuple[str, ...], *, force: bool) -> None:
-    """Refuse a folder that exists, unless it may be replaced and holds an older export alone."""
-    if not folder.exists():
-        return
-    if not folder.is_dir():
-        raise OutputError(f"{folder}: exists already, and a folder of that name is to be written")
-    if not force:
-        raise OutputError(f"{folder}: the folder exists already; use --force to replace it")
-    others = [
-        path.name
-        for path in sorted(folder.iterdir())
-        if path.is_dir() or not (path.name in names or (not names and path.suffix == ".vtp"))
-    ]
-    if others:
-        raise OutputError(
-            f"{folder}: the folder holds {others[0]!r}, which is no part of an export; not replaced"
-        )
 
 
 @contextmanager

@@ -11,6 +11,7 @@ from vasc.render.saving import PICTURE_SUFFIXES, save
 from vasc.render.sequence import draw_sequence
 from vasc.render.stems import StemStyle, draw_stem
 from vasc.render.styles import COLOR_CHOICES, TISSUE_COLOR_CHOICES, LeafStyle
+from vasc.render.survival import draw_survival
 from vasc.render.tissue import draw_tissue
 from vasc.render.tissue_style import TissueScale, TissueStyle, scale_of
 from vasc.render.transitions import draw_transitions
@@ -39,6 +40,7 @@ __all__ = [
     "draw_leaf_checks",
     "draw_sequence",
     "draw_stem",
+    "draw_survival",
     "draw_tissue",
     "draw_transitions",
     "draw_unrolled",

@@ -24,8 +24,10 @@ SIZE = (8.0, 6.0)
 """Of the picture, in inches."""
 N_OUTLINES = 120
 """Steps at which the height of the blade is looked up."""
-N_BINS = 60
-"""Spans of time in which events are counted."""
+MOST_BINS = 60
+"""Spans of time in which events are counted, at most."""
+NEAR = 0.12
+"""Share of the run within which the names of two lines stand above each other."""
 SPANS = {
     EventKind.GROWTH_ENDED: "growth ended",
     EventKind.MESOPHYLL_EVENT: "mesophyll",
@@ -88,7 +90,7 @@ def draw_births(
     above, below = figure.subplots(
         2, 1, sharex=True, gridspec_kw={"height_ratios": (5.0, 1.2), "hspace": 0.06}
     )
-    figure.subplots_adjust(left=0.1, right=0.97, top=0.97, bottom=0.09)
+    figure.subplots_adjust(left=0.1, right=0.97, top=0.93, bottom=0.09)
     unit = LengthUnit.from_table(timeline.units)
     if orders is None:
         n_nodes = timeline.n_rows("nodes")
@@ -97,10 +99,12 @@ def draw_births(
     is_shown = table["step"] <= last
     _draw_extent(above, timeline, last, unit, style)
     _draw_points(above, {name: rows[is_shown] for name, rows in table.items()}, unit, order_name)
-    _draw_counts(below, timeline, last)
+    width = bin_width(last)
+    _draw_counts(below, timeline, last, width)
     above.set_ylabel(f"height above the base ({unit.name})", fontsize=TEXT_SIZE, color=INK)
-    below.set_ylabel("events", fontsize=TEXT_SIZE, color=INK)
-    below.set_xlabel("step", fontsize=TEXT_SIZE, color=INK, loc="left")
+    span = "a step" if width == 1 else f"in {width} steps"
+    below.set_ylabel(f"events {span}", fontsize=TEXT_SIZE, color=INK)
+    below.set_xlabel("step of birth", fontsize=TEXT_SIZE, color=INK, loc="left")
     below.set_xlim(0, max(last, 1))
     below.xaxis.set_major_locator(MaxNLocator(integer=True))
     for axes in (above, below):
@@ -177,10 +181,27 @@ def _draw_points(
     )
 
 
-def _draw_counts(axes: Axes, timeline: Timeline, last: int) -> None:
-    """Count events in spans of time, as lines of steps."""
+def bin_width(last: int) -> int:
+    """Give a round number of steps, so that a run has :data:`MOST_BINS` spans of it at most.
+
+    A span of whole steps: others would count one step more here than there.
+
+    Examples
+    --------
+    >>> bin_width(40), bin_width(640), bin_width(2464)
+    (1, 20, 50)
+    """
+    least = max((last + 1) / MOST_BINS, 1.0)
+    power = 1
+    while 10 * power < least:
+        power *= 10
+    return next(factor * power for factor in (1, 2, 5, 10) if factor * power >= least)
+
+
+def _draw_counts(axes: Axes, timeline: Timeline, last: int, width: int) -> None:
+    """Count events in spans of so many steps, as lines of steps."""
     events = timeline.events
-    edges = np.linspace(0.0, max(last, 1), N_BINS + 1)
+    edges = np.arange(0, last + 1 + width, width)
     for kind, (name, color) in COUNTED.items():
         steps = events["step"][(events["kind"] == kind) & (events["step"] <= last)]
         if len(steps):
@@ -199,21 +220,28 @@ def _draw_counts(axes: Axes, timeline: Timeline, last: int) -> None:
 
 
 def _mark_spans(above: Axes, below: Axes, timeline: Timeline, last: int) -> None:
-    """Draw lines at the steps from which things are otherwise."""
+    """Draw lines at the steps from which things are otherwise; their names stand above all."""
     events = timeline.events
-    for kind, name in SPANS.items():
-        for at in events["step"][(events["kind"] == kind) & (events["step"] <= last)].tolist():
-            for axes in (above, below):
-                axes.axvline(at, color=INK, linewidth=0.7, linestyle=(0.0, (4.0, 3.0)), zorder=1.8)
-            where: Any = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
-            above.annotate(
-                name,
-                (at, 0.99),
-                (-3.0, 0.0),
-                rotation=90,
-                ha="right",
-                va="top",
-                fontsize=TEXT_SIZE - 1.0,
-                color=INK,
-                **where,
-            )
+    marks = sorted(
+        (at, name)
+        for kind, name in SPANS.items()
+        for at in events["step"][(events["kind"] == kind) & (events["step"] <= last)].tolist()
+    )
+    row, before = 0, -np.inf
+    where: Any = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
+    for at, name in marks:
+        for axes in (above, below):
+            axes.axvline(at, color=INK, linewidth=0.7, linestyle=(0.0, (4.0, 3.0)), zorder=1.8)
+        row = 1 - row if at - before < NEAR * max(last, 1) else 0
+        before = at
+        above.annotate(
+            name,
+            (at, 1.0),
+            (0.0, 3.0 + row * 1.3 * TEXT_SIZE),
+            # at the right end, the text would leave the picture
+            ha="right" if at > 0.9 * last else "center",
+            va="bottom",
+            fontsize=TEXT_SIZE,
+            color=INK,
+            **where,
+        )

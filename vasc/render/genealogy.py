@@ -21,14 +21,20 @@ if TYPE_CHECKING:
 
 SIDE, TREES = 7.0, 5.0
 """Longer side of the blade's part, and width of the part with the trees, in inches."""
-LEFT, RIGHT, BELOW, ABOVE = 0.35, 0.25, 0.45, 0.3
+LEFT, RIGHT, BELOW, ABOVE = 0.5, 0.25, 0.9, 0.3
 """Room around the trees, in inches."""
+KEY = 0.42
+"""Distance of the key below them, in inches."""
 ROWS = 60
 """Numbers of trees that fit above each other."""
 MOST_TREES = 24
 """First-order loops that have a colour, a number and a tree: those with most parts."""
 PALEST = 0.55
 """Share of white in the colour of the latest generation."""
+DARKER = 0.68
+"""By which a colour is multiplied when it is taken for another loop: no two loops are alike."""
+MOST_SHADES = 5
+"""Generations that the key shows; of more, first, middle and last."""
 OTHERS = "#c9d4c4"
 """Areoles of loops beyond these."""
 
@@ -114,11 +120,11 @@ def _shown(tree: Genealogy) -> _Shown:
     largest = np.argsort(-sizes, kind="stable")[:MOST_TREES]
     loops = sorted(largest[sizes[largest] > 0].tolist())
     colors = [OTHERS] * tree.n_areoles
+    deepest = _deepest(generations[np.isin(roots, loops)])
     for place, loop in enumerate(loops):
-        plain = np.array(to_rgb(SOURCE_COLORS[place % len(SOURCE_COLORS)]))
-        members = np.flatnonzero(roots == loop).tolist()
-        deepest = max(int(generations[members].max()), 1)
-        for areole in members:
+        again, row = divmod(place, len(SOURCE_COLORS))
+        plain = np.array(to_rgb(SOURCE_COLORS[row])) * DARKER**again
+        for areole in np.flatnonzero(roots == loop).tolist():
             white = PALEST * int(generations[areole]) / deepest
             red, green, blue = (plain * (1.0 - white) + white).tolist()
             colors[areole] = to_hex((red, green, blue))
@@ -207,12 +213,57 @@ def _draw_trees(axes: Axes, shown: _Shown, step: int) -> None:
     axes.xaxis.set_major_locator(MaxNLocator(nbins=7, integer=True))
     axes.spines[["left", "right", "top"]].set_visible(False)
     axes.tick_params(labelsize=TEXT_SIZE, colors=INK, width=0.5)
-    axes.set_xlabel("step", fontsize=TEXT_SIZE, color=INK)
+    axes.set_xlabel("step of birth and of split", fontsize=TEXT_SIZE, color=INK)
+    axes.set_ylabel(
+        "areoles, by the number of their first-order loop", fontsize=TEXT_SIZE, color=INK
+    )
+    _draw_key(axes, shown)
     n_loops = int((tree.parents < 0).sum())
     what = f"{n_loops} first-order loops"
     if n_loops > len(shown.loops):
         what = f"the {len(shown.loops)} first-order loops with most parts, of {n_loops}"
     axes.set_title(f"splits of {what}", fontsize=TEXT_SIZE + 1.0, color=INK)
+
+
+def _draw_key(axes: Axes, shown: _Shown) -> None:
+    """Say below the trees what shades mean, and which areoles have no colour."""
+    from matplotlib.patches import Patch
+
+    generations = shown.tree.generations[np.isin(shown.tree.roots, shown.loops)]
+    deepest = _deepest(generations)
+    told = list(range(deepest + 1))
+    if len(told) > MOST_SHADES:
+        told = [0, deepest // 2, deepest]
+    gray = np.array([0.35, 0.35, 0.35])
+    handles = []
+    for splits in told:
+        white = PALEST * splits / deepest
+        label = f"after {splits} split{'s' if splits > 1 else ''}" if splits else "loop itself"
+        handles.append(Patch(facecolor=tuple(gray * (1.0 - white) + white), label=label))
+    if len(shown.loops) < len(np.unique(shown.tree.roots)):
+        handles.append(Patch(facecolor=OTHERS, label="in another loop"))
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    height = float(figure.get_size_inches()[1])
+    axes.legend(
+        handles=handles,
+        title="hue: first-order loop; shade: splits before the areole",
+        loc="upper center",
+        bbox_to_anchor=(0.5, -KEY / axes.get_position().height / height),
+        ncols=len(handles),
+        fontsize=TEXT_SIZE - 1.0,
+        title_fontsize=TEXT_SIZE - 1.0,
+        frameon=False,
+        labelcolor=INK,
+        handlelength=1.0,
+        columnspacing=1.2,
+        borderaxespad=0.0,
+    )
+
+
+def _deepest(generations: NDArray[np.int32]) -> int:
+    """Give the highest generation, 1 at least."""
+    return max(int(generations.max(initial=0)), 1)
 
 
 def _number(axes: Axes, x: float, y: float, loop: int) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping
+from collections.abc import Callable, Container, Mapping
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,76 +19,96 @@ from vasc.render.leaf_panels import (
     draw_other_program,
     draw_values,
     looks,
+    mark,
 )
 from vasc.render.saving import save
 from vasc.render.styles import INK, TEXT_SIZE
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure, FigureBase
 
-PANEL = (3.6, 2.5)
+PANEL = (4.2, 3.0)
 """Width and height of a panel, in inches."""
+N_ACROSS = 4
+"""Panels beside each other on a sheet."""
 HEAD = 0.55
 """Height of title and key, in inches."""
 
-_RESIDUAL = ("bohn_residual_median", "bohn_residual_shuffled", "median force residual")
-_ASYMMETRY = ("loop_asymmetry", "loop_asymmetry_shuffled", "loop asymmetry")
-_PICTURES: dict[int, tuple[str, tuple[Any, ...]]] = {
-    6: ("junctions", (draw_degrees,)),
+
+@dataclass(frozen=True)
+class Panel:
+    """What draws a panel, and which numbers of the check it shows: none for what is no check.
+
+    ``shown`` has the beginnings of the words of these numbers, ``n_down`` is its height in rows.
+    """
+
+    draw: Callable[[Axes, Mapping[str, Any]], None]
+    shown: tuple[str, ...] = ("",)
+    n_down: int = 1
+
+    def checks(self, suite: Mapping[str, Any], number: int) -> list[Mapping[str, Any]]:
+        """Give the checks of a number that it shows."""
+        return [
+            one
+            for one in suite["checks"]
+            if one["check"] == number and self.shown and one["what"].startswith(self.shown)
+        ]
+
+
+def _shares(key: str, *shown: str) -> Panel:
+    """Give a panel of a distribution."""
+    return Panel(partial(draw_distribution, key=key), shown)
+
+
+def _values(number: int, what: str, species: str | None = None) -> Panel:
+    """Give a panel of a number beside its range."""
+    return Panel(partial(draw_values, number=number, what=what, species=species))
+
+
+def _controls(words: str, real: str, *shown: str) -> Panel:
+    """Give a panel of a number beside its shuffled control."""
+    shuffled = f"{real.removesuffix('_median')}_shuffled"
+    return Panel(partial(draw_controls, real=real, shuffled=shuffled, words=words), shown)
+
+
+_PICTURES: dict[int, tuple[str, tuple[Panel, ...]]] = {
+    6: ("junctions", (Panel(draw_degrees),)),
     7: (
         "areoles",
-        tuple(
-            partial(draw_distribution, key=key)
-            for key in ("area", "corners", "elongation", "circularity")
+        (
+            _shares("area", "area"),
+            _shares("corners", "corners"),
+            _shares("elongation", "elongation"),
+            _shares("circularity", "circularity"),
         ),
     ),
     8: (
         "vein density and areoles",
         (
-            partial(
-                draw_values,
-                number=8,
-                what="vein density x root of mean areole area",
-                species="density_x_sqrt_areole",
-            ),
-            partial(draw_distribution, key="length"),
+            _values(8, "vein density x root of mean areole area", "density_x_sqrt_areole"),
+            _shares("length"),
         ),
     ),
     9: (
         "distance to vein",
-        (
-            partial(draw_distribution, key="distance"),
-            partial(draw_values, number=9, what="vein density x mean distance to vein"),
-        ),
+        (_shares("distance"), _values(9, "vein density x mean distance to vein")),
     ),
-    10: ("free ends", (draw_ends,)),
-    11: (
-        "spanning tree",
-        (
-            partial(
-                draw_values,
-                number=11,
-                what="spanning tree over all veins, closed",
-                species="mst_ratio",
-            ),
-        ),
-    ),
+    10: ("free ends", (Panel(draw_ends),)),
+    11: ("spanning tree", (_values(11, "spanning tree over all veins, closed", "mst_ratio"),)),
     12: (
         "angles and widths",
         (
-            draw_angles,
-            partial(draw_controls, real=_RESIDUAL[0], shuffled=_RESIDUAL[1], words=_RESIDUAL[2]),
+            Panel(draw_angles, ("angle",)),
+            _controls("median force residual", "bohn_residual_median", "force"),
         ),
     ),
-    13: (
-        "loops within loops",
-        (partial(draw_controls, real=_ASYMMETRY[0], shuffled=_ASYMMETRY[1], words=_ASYMMETRY[2]),),
-    ),
-    14: ("Murray's law", (draw_exponents,)),
-    15: ("densities in growth", (draw_densities,)),
-    17: ("the measuring itself", (draw_other_program,)),
+    13: ("loops within loops", (_controls("loop asymmetry", "loop_asymmetry", "loop"),)),
+    14: ("Murray's law", (Panel(draw_exponents),)),
+    15: ("densities in growth", (Panel(draw_densities),)),
+    17: ("the measuring itself", (Panel(draw_other_program, n_down=2),)),
 }
-"""By check: title, and what draws each panel."""
+"""By check: title, and its panels."""
 _NAMED = (10, 11, 13, 14, 17)
 """Checks whose pictures name the leaves already."""
 
@@ -112,14 +133,15 @@ def draw_leaf_check(suite: Mapping[str, Any], number: int) -> Figure:
 
     title, panels = _PICTURES[number]
     n_across = min(len(panels), 2)
-    n_down = -(-len(panels) // n_across)
+    n_down = -(-len(panels) // n_across) * panels[0].n_down
     width = max(n_across * PANEL[0], 1.5 * PANEL[0])
     figure = Figure(figsize=(width, n_down * PANEL[1] + HEAD), layout="constrained")
     FigureCanvasAgg(figure)
-    for ax, draw in zip(
-        figure.subplots(n_down, n_across, squeeze=False).ravel(), panels, strict=True
-    ):
-        draw(ax, suite)
+    rows = n_down // panels[0].n_down
+    axes = figure.subplots(rows, n_across, squeeze=False).ravel()
+    for ax, panel in zip(axes, panels, strict=True):
+        panel.draw(ax, suite)
+        mark(ax, number, panel.checks(suite, number))
     n_columns = 0 if number in _NAMED else 2
     # densities are those of growing leaves alone
     leaves = suite["curves"]["densities"] if number == 15 else None
@@ -142,20 +164,37 @@ def draw_leaf_checks(suite: Mapping[str, Any]) -> Figure:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    panels = [(number, draw) for number, (_, draws) in _PICTURES.items() for draw in draws]
-    n_across = 4
-    n_down = -(-len(panels) // n_across)
-    size = (n_across * PANEL[0], n_down * PANEL[1] + 2.0 * HEAD)
+    panels = [(number, panel) for number in drawn(suite) for panel in _PICTURES[number][1]]
+    # a higher panel stands at the lower right, and the others around it
+    panels.sort(key=lambda one: one[1].n_down)
+    n_cells = sum(panel.n_down for _, panel in panels)
+    n_down = max(-(-n_cells // N_ACROSS), panels[-1][1].n_down)
+    size = (N_ACROSS * PANEL[0], n_down * PANEL[1] + 2.0 * HEAD)
     figure = Figure(figsize=size, layout="constrained")
     FigureCanvasAgg(figure)
-    axes = figure.subplots(n_down, n_across).ravel()
-    for ax, (number, draw) in zip(axes, panels, strict=False):
-        draw(ax, suite)
-        ax.set_title(f"check {number}", fontsize=TEXT_SIZE, color=INK, loc="left")
-    for ax in axes[len(panels) :]:
-        ax.set_axis_off()
-    _head(figure, suite, "Simulated leaves and a real one", n_columns=4)
+    grid = figure.add_gridspec(n_down, N_ACROSS)
+    free = [(row, column) for row in range(n_down) for column in range(N_ACROSS)]
+    if (high := panels[-1][1].n_down) > 1:
+        free = [cell for cell in free if cell[1] < N_ACROSS - 1 or cell[0] < n_down - high]
+        free.append((n_down - high, N_ACROSS - 1))
+        free[len(panels) - 1 : -1] = []
+    for (row, column), (number, panel) in zip(free, panels, strict=False):
+        ax = figure.add_subplot(grid[row : row + panel.n_down, column])
+        panel.draw(ax, suite)
+        mark(ax, number, panel.checks(suite, number))
+    n_failed = sum(not one["pass"] for one in suite["checks"])
+    n_checks = len(suite["checks"])
+    title = f"Leaves beside a real one: {n_checks - n_failed} of {n_checks} checks pass"
+    _head(figure, suite, title, n_columns=4)
     return figure
+
+
+def drawn(suite: Mapping[str, Any]) -> list[int]:
+    """Give the checks of which a suite has something to draw."""
+    asked = {one["check"] for one in suite["checks"]}
+    # free ends are drawn even where nothing is asked of them
+    needed = {10: True, 14: bool(suite["exponents"]), 15: bool(suite["curves"]["densities"])}
+    return [number for number in _PICTURES if needed.get(number, number in asked)]
 
 
 def save_leaf_checks(suite: Mapping[str, Any], output: str | Path) -> list[Path]:
@@ -183,7 +222,7 @@ def save_leaf_checks(suite: Mapping[str, Any], output: str | Path) -> list[Path]
         save(draw_leaf_checks(suite), output)
         return [output]
     paths = []
-    for number in _PICTURES:
+    for number in drawn(suite):
         path = output / f"check-{number}.png"
         save(draw_leaf_check(suite, number), path)
         paths.append(path)
@@ -205,13 +244,13 @@ def _head(
         for name, (color, marker) in looks(suite).items()
         if leaves is None or name in leaves
     ]
-    figure.suptitle(title, fontsize=TEXT_SIZE + 2.0, color=INK)
+    figure.suptitle(title, fontsize=TEXT_SIZE + 4.0, color=INK)
     if n_columns == 0:
         return
     figure.legend(
         handles=handles,
         loc="outside lower center",
         ncols=n_columns,
-        fontsize=TEXT_SIZE - 1.0,
+        fontsize=TEXT_SIZE + 1.0,
         frameon=False,
     )

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 from vasc.render.styles import INK, TEXT_SIZE
+
+LABEL_SIZE = TEXT_SIZE + 1.0
+"""Size of the words along an axis, in pt; numbers and notes are of TEXT_SIZE."""
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -19,13 +23,16 @@ RANGE = "#dde9d2"
 """Behind the values that a check allows."""
 FAIL = "#b3261e"
 MARKERS = ("o", "s", "^", "v")
+LINE = 44
+"""Letters in a line above a panel, at most."""
 
 
 def looks(suite: Suite) -> dict[str, tuple[str, str]]:
     """Give color and marker of each leaf, the real ones in gray."""
     simulated = [name for name in suite["curves"]["degrees"] if name not in suite["curves"]["real"]]
     found = {
-        name: (COLORS[row % len(COLORS)], MARKERS[row % len(MARKERS)])
+        # more leaves than colours have a colour again, with another marker
+        name: (COLORS[row % len(COLORS)], MARKERS[(row + row // len(COLORS)) % len(MARKERS)])
         for row, name in enumerate(simulated)
     }
     return found | dict.fromkeys(suite["curves"]["real"], (REAL, "D"))
@@ -33,10 +40,50 @@ def looks(suite: Suite) -> dict[str, tuple[str, str]]:
 
 def tidy(ax: Axes, *, x: str = "", y: str = "") -> None:
     """Give an axis its words, and take away what no one reads."""
-    ax.set_xlabel(x, fontsize=TEXT_SIZE)
-    ax.set_ylabel(y, fontsize=TEXT_SIZE)
-    ax.tick_params(labelsize=TEXT_SIZE - 1.0)
+    ax.set_xlabel(x, fontsize=LABEL_SIZE)
+    ax.set_ylabel(y, fontsize=LABEL_SIZE)
+    ax.tick_params(labelsize=TEXT_SIZE)
     ax.spines[["top", "right"]].set_visible(False)
+
+
+def mark(ax: Axes, number: int, checks: Sequence[Mapping[str, Any]]) -> None:
+    """Name the check above a panel; one that fails is red, framed, and says by what.
+
+    Parameters
+    ----------
+    ax : Axes
+        A panel that is drawn.
+    number : int
+        The check.
+    checks : sequence of mapping
+        What the panel shows of it, of all leaves.
+    """
+    failed = [one for one in checks if not one["pass"]]
+    if not failed:
+        ax.set_title(f"check {number}", fontsize=LABEL_SIZE, color=INK, loc="left")
+        return
+    is_one = len({one["what"] for one in checks}) == 1
+    said = [
+        line
+        for one in failed
+        for line in wrap(_missed(one, is_one), LINE, subsequent_indent="    ")
+    ]
+    ax.set_title(
+        "\n".join([f"check {number} FAILS", *said]),
+        fontsize=TEXT_SIZE,
+        color=FAIL,
+        loc="left",
+        linespacing=1.25,
+    )
+    ax.spines[:].set(visible=True, color=FAIL, linewidth=1.8)
+
+
+def _missed(check: Mapping[str, Any], is_one: bool) -> str:
+    """Give leaf, value and what is asked, and what is measured where that is not the only one."""
+    what = "" if is_one else check["what"].rsplit(", ", 1)[-1] + " "
+    value = "none" if check["value"] is None else f"{check['value']:.3g}"
+    upper = " or more" if check["high"] is None else f" to {check['high']:.3g}"
+    return f"{check['leaf']}: {what}{value}, asked {check['low']:.3g}{upper}"
 
 
 def draw_distribution(ax: Axes, suite: Suite, key: str) -> None:
@@ -68,7 +115,7 @@ def draw_degrees(ax: Axes, suite: Suite) -> None:
             place = degree + (row - (len(found) - 1) / 2.0) * width
             ax.bar(place, share, width=0.9 * width, color=color)
     ax.axhline(_asked(suite, 6)["low"], color=INK, linewidth=0.8, linestyle=":")
-    ax.text(5.4, _asked(suite, 6)["low"] - 0.02, "least for 3", fontsize=TEXT_SIZE - 1.0,
+    ax.text(5.4, _asked(suite, 6)["low"] - 0.02, "least for 3", fontsize=TEXT_SIZE,
             ha="right", va="top")  # fmt: skip
     ax.set_xticks([3, 4, 5])
     tidy(ax, x="veins that meet at a junction", y="share of junctions")
@@ -101,7 +148,9 @@ def draw_values(ax: Axes, suite: Suite, number: int, what: str, species: str | N
                 markeredgewidth=1.6)  # fmt: skip
         if not check["pass"]:
             place = (check["value"], -row + 0.25)
-            ax.text(*place, "fails", color=FAIL, ha="center", fontsize=TEXT_SIZE - 1.0)
+            ax.text(
+                *place, f"{check['value']:.3g} fails", color=FAIL, ha="center", fontsize=TEXT_SIZE
+            )
         rows.append(check["leaf"])
     if species is not None:
         low, left, middle, right, high = suite["curves"]["species"][species]
@@ -132,15 +181,21 @@ def draw_angles(ax: Axes, suite: Suite) -> None:
             )
         ax.plot(ratios, middle, marker=marker, color=color, markersize=4.0, linewidth=1.2)
     ax.set_ylim(85.0, 183.0)
-    ax.legend(fontsize=TEXT_SIZE - 1.0, frameon=False, loc="lower left")
+    ax.legend(fontsize=TEXT_SIZE, frameon=False, loc="lower left")
     tidy(ax, x="thinnest over widest vein", y="angle of the two widest (degrees)")
 
 
 def draw_controls(ax: Axes, suite: Suite, real: str, shuffled: str, words: str) -> None:
     """Draw a number beside the one of its shuffled control, open, for each leaf."""
-    found = looks(suite)
+    # without widths there are no such numbers
+    controls = suite["curves"]["controls"]
+    found = {
+        name: look
+        for name, look in looks(suite).items()
+        if controls[name][real] is not None and controls[name][shuffled] is not None
+    }
     for row, (name, (color, marker)) in enumerate(found.items()):
-        one = suite["curves"]["controls"][name]
+        one = controls[name]
         ax.plot([one[real], one[shuffled]], [-row, -row], color=color, linewidth=1.0)
         ax.plot(one[real], -row, marker, color=color, markersize=6.0)
         ax.plot(one[shuffled], -row, marker, color="white", markeredgecolor=color, markersize=6.0)
@@ -161,7 +216,7 @@ def draw_ends(ax: Axes, suite: Suite) -> None:
         if name in asked:
             verdict = "" if asked[name]["pass"] else " FAILS"
             words += f" ({asked[name]['what'].rsplit(', ', 1)[-1]}{verdict})"
-        ax.text(value + 0.02, -row, words, va="center", fontsize=TEXT_SIZE - 1.0)
+        ax.text(value + 0.02, -row, words, va="center", fontsize=TEXT_SIZE)
     ax.set_yticks([-row for row in range(len(found))], list(found))
     ax.set_xlim(0.0, 1.5 * max(0.1, *suite["curves"]["ends"].values()))
     tidy(ax, x="free ends per areole")
@@ -178,7 +233,7 @@ def draw_exponents(ax: Axes, suite: Suite) -> None:
     limit = np.log10(_asked(suite, 14)["high"])
     ax.axvline(limit, color=INK, linewidth=0.8, linestyle=":")
     ax.text(limit - 0.15, 0.0, "most allowed ", rotation=90, ha="right", va="bottom",
-            fontsize=TEXT_SIZE - 1.0)  # fmt: skip
+            fontsize=TEXT_SIZE)  # fmt: skip
     ticks = list(range(-16, -5, 2))
     ax.set_xticks(ticks, [f"$10^{{{tick}}}$" for tick in ticks])
     tidy(ax, x=f"off the exponent, {len(off):,} branchings of open venation", y="share")
@@ -207,7 +262,7 @@ def draw_densities(ax: Axes, suite: Suite) -> None:
         0.97,
         0.04,
         words,
-        fontsize=TEXT_SIZE - 1.0,
+        fontsize=TEXT_SIZE,
         transform=ax.transAxes,
         ha="right",
         va="bottom",
@@ -225,7 +280,7 @@ def draw_other_program(ax: Axes, suite: Suite) -> None:
     ax.set_yticks([-row for row in range(len(checks))], [check["what"] for check in checks])
     ax.set_xlim(-2.0, 2.0)
     tidy(ax, x="percent off another program")
-    ax.tick_params(axis="y", labelsize=TEXT_SIZE - 2.5)
+    ax.margins(y=0.03)
 
 
 def _checks(suite: Suite, number: int) -> Sequence[Mapping[str, Any]]:

@@ -190,7 +190,7 @@ def color_segments(
         causes = segment_causes(network, directions).astype(np.int64)
         palette = (*SOURCE_COLORS, style.vein)
         classes = np.where(causes == NULL, len(SOURCE_COLORS), causes % len(SOURCE_COLORS))
-        return Coloring(classes, palette, Key())
+        return Coloring(classes, palette, _key_of_sources(classes, palette))
     if color == "kind":
         names = tuple(kind.name.lower() for kind in SegmentKind)
         colors = tuple(KIND_COLORS[name] for name in names)
@@ -201,6 +201,13 @@ def color_segments(
         states = segment_states(paint.canals, directions)
         return Coloring(states, tuple(STATE_COLORS.values()), state_key(paint.canals))
     raise VascError(f"color: {color!r} is not one of {', '.join(COLOR_CHOICES)}")
+
+
+def _key_of_sources(classes: NDArray[np.int64], palette: tuple[str, ...]) -> Key:
+    """Say which colour is of which sources: colours are as many as digits."""
+    shown = np.unique(classes).tolist()
+    labels = tuple("none" if row == len(SOURCE_COLORS) else str(row) for row in shown)
+    return Key("source ends in", labels, tuple(palette[row] for row in shown))
 
 
 def _by_order(orders: Ids) -> Coloring:

@@ -24,7 +24,8 @@ STATISTICS = (
         "areole_circularity_median",
         "areole_elongation_median",
     ),
-    *("areole_corners_mean", "areole_corners_variance", "enclosed_area", "free_ends"),
+    *("areole_corners_mean", "areole_corners_variance", "enclosed_area", "enclosed_vein_density"),
+    *("free_ends", "enclosed_density_x_sqrt_areole"),
     *("free_ends_per_areole", *(f"junction_degree.{degree}" for degree in range(3, 9))),
     *("sections", "section_length_mean", "section_length_cv", "free_end_length_share"),
     *("mst_ratio", "box_dimension", "density_x_sqrt_areole", "distance_to_vein_mean"),
@@ -151,13 +152,10 @@ def _lineage(timeline: "Timeline") -> dict[str, Any]:
     lineage = timeline.lineage
     births, removed = lineage.fates["birth"], lineage.fates["removed"]
     lives = (removed - births)[removed >= 0]
-    table = lineage.life_table()
-    # the age that half of the sources reach at most (Kaplan and Meier, 1958)
-    ages = table["age"][table["survival"] <= 0.5]
     n_caused = int(np.count_nonzero(lineage.causes >= 0))
     return {
         "source_life_mean": float(lives.mean()) if len(lives) else None,
-        "source_life_median": int(ages[0]) if len(ages) else None,
+        "source_life_median": lineage.median_life().age,
         "sources_unreached": len(births) - len(lives),
         "nodes_per_source": n_caused / len(births) if len(births) else None,
     }

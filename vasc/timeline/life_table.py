@@ -1,5 +1,8 @@
 """Life tables: how many of those born are still alive at each age."""
 
+from collections.abc import Mapping
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -7,6 +10,8 @@ from vasc.arrays import NULL, Steps
 
 Z_95 = 1.959963984540054
 """Half-width of a 95 % interval of the normal distribution."""
+ROUNDING = 1e-12
+"""Of a share of survivors."""
 
 
 def life_table(births: Steps, deaths: Steps, last_step: int) -> dict[str, NDArray]:
@@ -76,3 +81,72 @@ def life_table(births: Steps, deaths: Steps, last_step: int) -> dict[str, NDArra
         "low": low,
         "high": high,
     }
+
+
+@dataclass(frozen=True)
+class MedianLife:
+    """The age that half of those born do not outlive.
+
+    Parameters
+    ----------
+    age : int or None
+        In steps: the first age at which at most half live longer; None if more than half
+        live longer than any age that was watched.
+    low, high : int or None
+        95 % interval of that age: the first ages at which ``low`` and ``high`` of the life
+        table are at most a half; None where they never are (Brookmeyer and Crowley, 1982).
+    n, deaths, censored : int
+        How many were born, how many of them died, and how many lived at the end.
+    least_survival : float
+        The share that lives longer than the greatest age; nan without any item.
+    """
+
+    age: int | None
+    low: int | None
+    high: int | None
+    n: int
+    deaths: int
+    censored: int
+    least_survival: float
+
+
+def median_life(table: Mapping[str, NDArray]) -> MedianLife:
+    """Give the median of a life table.
+
+    Parameters
+    ----------
+    table : mapping of str to ndarray
+        What :func:`life_table` gives.
+
+    Returns
+    -------
+    MedianLife
+
+    References
+    ----------
+    R. Brookmeyer and J. Crowley (1982). A confidence interval for the median survival time.
+    Biometrics 38, 29-41.
+
+    Examples
+    --------
+    >>> table = life_table(np.array([0, 0, 1, 1]), np.array([1, -1, 2, -1]), 2)
+    >>> median_life(table).age
+    1
+    """
+    n_ages = len(table["age"])
+    deaths, censored = int(table["deaths"].sum()), int(table["censored"].sum())
+
+    def first(column: str) -> int | None:
+        # rounding of the product must not put a half above a half
+        rows = np.flatnonzero(table[column] <= 0.5 + ROUNDING)
+        return int(table["age"][rows[0]]) if len(rows) else None
+
+    return MedianLife(
+        age=first("survival"),
+        low=first("low"),
+        high=first("high"),
+        n=deaths + censored,
+        deaths=deaths,
+        censored=censored,
+        least_survival=float(table["survival"][-1]) if n_ages else float("nan"),
+    )

@@ -14,7 +14,8 @@ from vasc.timeline.areole_lineage import AreoleFate, areole_fate
 from vasc.timeline.competition import competitors
 from vasc.timeline.frame import require
 from vasc.timeline.genealogy import Genealogy, Loops, genealogy_of
-from vasc.timeline.life_table import life_table
+from vasc.timeline.life_table import MedianLife, life_table, median_life
+from vasc.timeline.place_history import PlaceHistory, history_at
 from vasc.timeline.source_fates import Fate, SourceFate, fate_columns, fate_table, source_fate
 from vasc.timeline.vein_loops import VeinLoop, loop_of
 from vasc.timeline.veins import Veins, births, births_by_order, veins_of
@@ -167,6 +168,29 @@ class Lineage:
         """
         births, removed = self.fates["birth"], self.fates["removed"]
         return life_table(births, removed, self._timeline.last_step)
+
+    def median_life(self) -> MedianLife:
+        """Give the median of the life table: :func:`vasc.timeline.life_table.median_life`."""
+        return median_life(self.life_table())
+
+    def at(self, x: float, y: float, step: int = -1) -> PlaceHistory:
+        """Tell what is at a place of the blade at a step, and how it came to be.
+
+        Parameters
+        ----------
+        x, y : float
+            The place at that step, in D.
+        step : int
+            The step, the last one when not given.
+
+        Raises
+        ------
+        TimelineError
+            If the step is not recorded, the run is one of a stem, there is no vein, or the
+            place is neither on the blade nor within 1 D of a vein.
+        """
+        frame = self._timeline.frame(step)
+        return history_at(self._timeline, frame, self.veins, self.fates, (x, y))
 
     @cached_property
     def veins(self) -> Veins:

@@ -115,7 +115,7 @@ def angle_classes(sample: LeafSample) -> list[AngleClass]:
 
 
 def check_leaf(sample: LeafSample) -> list[LeafCheck]:
-    """Hold a leaf with areoles against the checks 6 to 13.
+    """Hold a leaf with areoles against the checks 6 to 13, 12 and 13 only if it has widths.
 
     Parameters
     ----------
@@ -137,25 +137,35 @@ def check_leaf(sample: LeafSample) -> list[LeafCheck]:
         "elongation": numbers["areole_elongation_median"],
         "circularity": numbers["areole_circularity_median"],
         "area_cv": numbers["areole_area_cv"],
-        "density_x_sqrt_areole": numbers["density_x_sqrt_areole"],
-        "density_x_distance": numbers["density_x_distance"],
+        # of the enclosed veins: a real network may have none at the margin
+        "density_x_sqrt_areole": numbers["enclosed_density_x_sqrt_areole"],
+        "density_x_distance": _product(
+            numbers["enclosed_vein_density"], numbers["distance_to_vein_mean"]
+        ),
     }
     if sample.has_event is not None:
         key = "ends_with_event" if sample.has_event else "ends_without_event"
         values[key] = sample.n_enclosed_ends
+    values["mst_closed"] = numbers["mst_ratio"]
+    if sample.leaf.widths is not None:
+        values |= _of_widths(sample)
+    return [
+        LeafCheck(sample.name, LEAF_RANGES[key], math.nan if value is None else value)
+        for key, value in values.items()
+    ]
+
+
+def _of_widths(sample: LeafSample) -> dict[str, float | None]:
+    """Give the numbers of the checks 12 and 13, which need widths."""
+    numbers = sample.numbers
     off = [one.off for one in angle_classes(sample)]
-    values |= {
-        "mst_closed": numbers["mst_ratio"],
+    return {
         "force_residual": _ratio(
             numbers["bohn_residual_median"], numbers["bohn_residual_shuffled"]
         ),
         "angle_off": max((value for value in off if not math.isnan(value)), default=math.nan),
         "hierarchy": _less(numbers["loop_asymmetry"], numbers["loop_asymmetry_shuffled"]),
     }
-    return [
-        LeafCheck(sample.name, LEAF_RANGES[key], math.nan if value is None else value)
-        for key, value in values.items()
-    ]
 
 
 def check_open(sample: LeafSample, exponents: Floats, asked: float) -> list[LeafCheck]:
@@ -211,6 +221,11 @@ def as_table(checks: list[LeafCheck]) -> list[Table]:
 def _ratio(value: float | None, other: float | None) -> float:
     """Give value / other; nan if one is missing."""
     return value / other if value is not None and other else math.nan
+
+
+def _product(value: float | None, other: float | None) -> float:
+    """Give value * other; nan if one is missing."""
+    return value * other if value is not None and other is not None else math.nan
 
 
 def _less(value: float | None, other: float | None) -> float:

@@ -65,7 +65,7 @@ def densities_of(timeline: Timeline, widths: WidthParameters) -> Densities:
     Densities
         Up to the last step with growth.
     """
-    areas = np.array([blade_of(timeline.frame(k)).area for k in range(timeline.n_frames)])
+    areas = blade_areas(timeline)
     shares = 2.0 ** -np.concatenate(
         [np.arange(EARLIER + 1, 1, -1), np.linspace(1.0, 0.0, N_MOMENTS)]
     )
@@ -74,6 +74,11 @@ def densities_of(timeline: Timeline, widths: WidthParameters) -> Densities:
     rows = [_lengths(moment, found) for moment, found in _with_widths(timeline, steps, widths)]
     lengths = np.array(rows).reshape(-1, 2)
     return Densities(areas[steps], *(lengths / areas[steps, None]).T)
+
+
+def blade_areas(timeline: Timeline) -> Floats:
+    """Give the area of the blade at every recorded step, shape (k,), in D^2."""
+    return np.array([blade_of(timeline.frame(k)).area for k in range(timeline.n_frames)])
 
 
 def _with_widths(

@@ -108,7 +108,9 @@ _CONTROLLED = (
 
 
 def _angles(sample: LeafSample) -> list[Table]:
-    """Give the classes of junctions that have enough of them."""
+    """Give the classes of junctions that have enough of them; none without widths."""
+    if sample.leaf.widths is None:
+        return []
     return [
         {
             "ratio": (one.low + one.high) / 2.0,

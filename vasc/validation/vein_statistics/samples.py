@@ -12,7 +12,7 @@ from vasc.analysis import WidthParameters, find_sections, network_statistics, ru
 from vasc.analysis.junctions import Junctions, find_junctions
 from vasc.analysis.measures import Measured, measure
 from vasc.analysis.topology import free_ends
-from vasc.analysis.vein_distance import distances_to_vein, enclosed_region, places_in
+from vasc.analysis.vein_distance import distances_to_vein, places_in
 from vasc.arrays import Floats
 from vasc.config.bundled import find_config
 from vasc.errors import VascError
@@ -33,8 +33,9 @@ class LeafSample:
     ----------
     name : str
         What it is called in the report.
-    kind : {"closed", "areole", "open", "real"}
-        The model that made it, or that no model did.
+    kind : str
+        The model that made it; "real" for the control that comes with vasc, "given" for a
+        real network of the user.
     leaf : RealNetwork
         Its veins. Those of a run are measured just as those of a real leaf: densities
         refer to the area that veins enclose.
@@ -65,10 +66,10 @@ class LeafSample:
 
     @cached_property
     def distances(self) -> Floats:
-        """Distance to the nearest vein from places in the areoles, times the vein density."""
+        """Distance to the nearest vein from places in the areoles, times the density there."""
         sections = self.measured.sections
-        places = places_in(enclosed_region(sections), 20_000)
-        return distances_to_vein(sections, places) * self.numbers["vein_density"]
+        places = places_in(self.measured.region, 20_000)
+        return distances_to_vein(sections, places) * self.measured.enclosed_density
 
     @cached_property
     def n_enclosed_ends(self) -> int:
@@ -77,7 +78,7 @@ class LeafSample:
 
         network = self.leaf.network
         places = network.positions[free_ends(network)]
-        return int(shapely.contains_xy(enclosed_region(self.measured.sections), places).sum())
+        return int(shapely.contains_xy(self.measured.region, places).sum())
 
 
 def sample_of_run(name: str, kind: str, path: Path) -> LeafSample:

@@ -1,0 +1,219 @@
+"""A crate holds the run and all that belongs to it, is read by others, and is the same twice."""
+
+import json
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+from vasc.cli import main
+from vasc.config import load
+from vasc.crates import export_crate, is_crate
+from vasc.crates.citation import WORKS, citation_file
+from vasc.errors import OutputError, TimelineError
+from vasc.experiment import run, verify
+from vasc.export.tables import DESCRIPTION, TABLES
+from vasc.timeline import Timeline
+
+rocrate = pytest.importorskip("rocrate.rocrate")
+
+LICENSE = "https://spdx.org/licenses/CC-BY-4.0"
+
+
+def files_of(folder):
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in folder.rglob("*")
+        if path.is_file()
+    }
+
+
+def graph_of(folder):
+    text = (folder / "ro-crate-metadata.json").read_text(encoding="utf-8")
+    return {entity["@id"]: entity for entity in json.loads(text)["@graph"]}
+
+
+def references(value):
+    """Give the ids that a value of JSON-LD refers to."""
+    if isinstance(value, list):
+        return [name for each in value for name in references(each)]
+    return [value["@id"]] if isinstance(value, dict) and set(value) == {"@id"} else []
+
+
+@pytest.fixture(scope="module")
+def crate(runs, tmp_path_factory):
+    """Give the crate of a small leaf."""
+    output = tmp_path_factory.mktemp("crates") / "open.crate"
+    return export_crate(runs.open, output, authors=["A. Botanist", "B. C."], license=LICENSE)
+
+
+def test_a_crate_holds_the_run_and_all_that_belongs_to_it(runs, crate):
+    with Timeline(runs.open) as timeline:
+        last, toml = timeline.last_step, timeline.config_toml
+    files = files_of(crate)
+    tables = {f"tables/{name}.csv" for name in TABLES} | {f"tables/{DESCRIPTION}"}
+    figures = {f"figures/step-{last}.png", f"figures/step-{last}.svg"}
+    others = {"run.h5", "config/config.toml", "CITATION.cff", "ro-crate-metadata.json"}
+    assert set(files) == tables | figures | others
+    assert files["run.h5"] == runs.open.read_bytes()
+    assert files["config/config.toml"].decode() == toml
+    assert files["CITATION.cff"] == citation_file().read_bytes()
+    assert verify(crate / "run.h5") == []
+
+
+def test_rocrate_reads_what_was_written(crate):
+    read = rocrate.ROCrate(crate)
+    assert read.root_dataset["name"] == "A leaf -- for <export> & co"
+    assert [person["name"] for person in read.root_dataset["author"]] == ["A. Botanist", "B. C."]
+    assert read.root_dataset["license"].id == LICENSE
+    parts = {part.id for part in read.root_dataset["hasPart"]}
+    assert parts == set(files_of(crate)) - {"ro-crate-metadata.json"}
+    action = read.get("#session-0")
+    assert action["instrument"]["name"] == "vasc"
+    assert (action["object"].id, action["result"].id) == ("config/config.toml", "run.h5")
+
+
+def test_the_description_is_what_ro_crate_1_1_asks_for(crate):
+    text = (crate / "ro-crate-metadata.json").read_text(encoding="utf-8")
+    assert json.loads(text)["@context"] == "https://w3id.org/ro/crate/1.1/context"
+    graph = graph_of(crate)
+    assert len(graph) == len(json.loads(text)["@graph"])
+    descriptor, root = graph["ro-crate-metadata.json"], graph["./"]
+    assert descriptor["conformsTo"] == {"@id": "https://w3id.org/ro/crate/1.1"}
+    assert descriptor["about"] == {"@id": "./"}
+    assert {"name", "description", "datePublished", "license"} <= set(root)
+    for entity in graph.values():
+        assert entity["@type"]
+        for value in entity.values():
+            for name in references(value):
+                assert name in graph or name == "https://w3id.org/ro/crate/1.1"
+    for name, content in files_of(crate).items():
+        if name != "ro-crate-metadata.json":
+            assert graph[name]["contentSize"] == str(len(content))
+
+
+def test_software_and_times_are_those_recorded(runs, crate):
+    with Timeline(runs.open) as timeline:
+        (session,) = timeline.provenance
+    graph = graph_of(crate)
+    programs = {
+        entity["name"]: entity["softwareVersion"]
+        for entity in graph.values()
+        if entity["@type"] == "SoftwareApplication"
+    }
+    assert programs == session["software"]
+    assert graph["./"]["datePublished"] == session["ended"]
+    action = graph["#session-0"]
+    assert (action["startTime"], action["endTime"]) == (session["started"], session["ended"])
+    assert action["actionStatus"] == "http://schema.org/CompletedActionStatus"
+
+
+@pytest.mark.parametrize("kind", ["open", "stem"])
+def test_two_crates_of_a_run_are_the_same_bytes(runs, kind, tmp_path):
+    crates = []
+    for name in ("a", "b"):
+        # in a process of its own: what rocrate makes up by chance or clock would differ
+        path = tmp_path / f"{name}.crate"
+        command = [sys.executable, "-m", "vasc", "export", getattr(runs, kind), "-o", path]
+        subprocess.run(command, check=True, capture_output=True)
+        crates.append(files_of(path))
+    assert crates[0] == crates[1]
+
+
+def test_files_of_a_config_go_with_it_and_the_config_runs(runs, tmp_path):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "blade.csv").write_text("x,y\n0,0\n6,4\n5,14\n0,20\n-5,14\n-6,4\n")
+    (tmp_path / "in" / "leaf.toml").write_text(
+        'kind = "open"\n[domain]\nfile = "blade.csv"\nlength = 20.0\n[growth]\nkind = "none"\n'
+        '[placement]\nkind = "given"\npoints = [[0.0, 9.0]]\n[arrival]\nkill_distance = 2.0\n'
+    )
+    run(load(str(tmp_path / "in" / "leaf.toml")), tmp_path / "leaf.h5")
+    crate = export_crate(tmp_path / "leaf.h5", tmp_path / "leaf.crate")
+    blade = (tmp_path / "in" / "blade.csv").read_bytes()
+    assert (crate / "config" / "blade.csv").read_bytes() == blade
+    summary = run(load(str(crate / "config" / "config.toml")), tmp_path / "again.h5")
+    with Timeline(tmp_path / "leaf.h5") as first:
+        assert summary.nodes == first.n_rows("nodes")
+
+
+def test_a_file_of_a_config_does_not_leave_the_crate(tmp_path):
+    from vasc.crates.writing import _place
+
+    outward = ["../a.csv", "..", "a/../../b", str(tmp_path / "c"), "config.toml"]
+    places = [_place(name, number) for number, name in enumerate(outward)]
+    assert len(set(places)) == len(outward)
+    assert all(place.startswith("config/files/") and ".." not in place[13:].split("/")
+               for place in places)  # fmt: skip
+
+
+def test_without_author_and_licence_the_crate_says_so(runs, tmp_path):
+    graph = graph_of(export_crate(runs.open, tmp_path / "crate", 3))
+    assert graph["./"]["license"].startswith("no licence given")
+    assert "author" not in graph["./"]
+    assert "agent" not in graph["#session-0"]
+    assert "figures/step-3.png" in graph
+
+
+def test_a_crate_is_replaced_when_forced_and_an_older_crate_alone(runs, tmp_path):
+    crate = export_crate(runs.open, tmp_path / "a.crate", 3)
+    with pytest.raises(OutputError, match="the folder exists already; use --force"):
+        export_crate(runs.open, crate)
+    export_crate(runs.open, crate, 4, force=True)
+    assert "figures/step-4.png" in files_of(crate)
+    assert "figures/step-3.png" not in files_of(crate)
+    (crate / "tables" / "mine.txt").write_text("mine")
+    before = files_of(crate)
+    with pytest.raises(OutputError, match=r"holds 'tables/mine.txt', which is no part"):
+        export_crate(runs.open, crate, force=True)
+    assert files_of(crate) == before
+
+
+def test_a_folder_of_another_is_never_replaced(runs, tmp_path):
+    (tmp_path / "my-crate").mkdir()
+    (tmp_path / "my-crate" / "run.h5").write_text("mine")
+    with pytest.raises(OutputError, match=r"holds 'run.h5'"):
+        export_crate(runs.open, tmp_path / "my-crate", force=True)
+
+
+def test_what_goes_wrong_leaves_nothing(runs, tmp_path, monkeypatch):
+    def fail(*_, **__):
+        raise OSError("no space")
+
+    monkeypatch.setattr("vasc.crates.writing.render", fail)
+    with pytest.raises(OSError, match="no space"):
+        export_crate(runs.open, tmp_path / "a.crate")
+    with pytest.raises(TimelineError):
+        export_crate(citation_file(), tmp_path / "b.crate")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_run_that_grows_while_it_is_copied_is_refused(runs, tmp_path, monkeypatch):
+    run_file = tmp_path / "a.h5"
+    shutil.copy(runs.open, run_file)
+
+    def copy_of_another(_, target):
+        target.write_bytes(runs.stem.read_bytes())
+
+    monkeypatch.setattr("vasc.crates.writing.shutil.copyfile", copy_of_another)
+    with pytest.raises(TimelineError, match="is being written"):
+        export_crate(run_file, tmp_path / "a.crate")
+    assert not (tmp_path / "a.crate").exists()
+
+
+def test_works_to_cite_are_those_of_the_citation_file():
+    text = citation_file().read_text(encoding="utf-8")
+    for work in WORKS.values():
+        assert f"title: {work['name']}\n" in text
+        assert f"year: {work['datePublished']}\n" in text
+
+
+def test_the_command_line_writes_a_crate_and_tells_what_it_does_not_take(runs, tmp_path, capsys):
+    output = tmp_path / "leaf.crate"
+    assert main(["export", str(runs.stem), "-o", f"{output}/", "--author", "A", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == {"files": [str(output)]}
+    assert is_crate(output)
+    assert main(["export", str(runs.open), "-o", str(tmp_path / "b.crate"), "--every", "2"]) == 2
+    assert "are not for a crate" in capsys.readouterr().err
+    assert main(["export", str(runs.open), "-o", str(tmp_path / "b.svg"), "--author", "A"]) == 2
+    assert "--author and --license are for a crate" in capsys.readouterr().err
