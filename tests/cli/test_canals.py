@@ -280,7 +280,7 @@ def test_a_table_of_other_models_is_to_be_removed(canals, capsys, key):
 
 def test_loops_of_given_veins_are_areoles_and_no_sequence(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    ring = "[[2, 4], [11, 4], [11, 8], [2, 8], [2, 4]]"
+    ring = "[[2, 4], [11, 4], [11, 8]], [[2, 4], [2, 8], [11, 8]]"
     (tmp_path / "ring.toml").write_text(CANALS.replace("[[2, 8]], [[10, 8]]", ring))
     assert main(["run", "ring.toml", "--steps", "2", "--no-figure", "-q"]) == 0
     assert main(["stats", "ring.h5", "--step", "0", "--json"]) == 0
