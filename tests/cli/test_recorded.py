@@ -218,7 +218,10 @@ def test_the_fate_of_a_source_is_what_the_events_say(leaf, capsys):
     ("arguments", "part"),
     [
         ([], "give one of --node ID, --source ID, --areole ID"),
-        (["--node", "1", "--source", "1"], "give one of --node ID, --source ID, --areole ID"),
+        (
+            ["--node", "1", "--source", "1"],
+            "--node and --source are questions of their own: give one",
+        ),
         (["--node", "999999"], "no node 999999"),
         (["--source", "999999"], "no source 999999"),
     ],

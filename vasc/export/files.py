@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from vasc.errors import OutputError, VascError
+from vasc.errors import OutputError, VascError, writing
 from vasc.export.drawing import svg
 from vasc.export.folders import check_folder, new_folder
 from vasc.export.graphml import graphml
@@ -19,7 +19,7 @@ from vasc.export.trees import mtg, swc
 from vasc.export.words import as_bytes
 from vasc.timeline import Timeline
 from vasc.timeline.stems import is_stem, recorded_stem
-from vasc.timeline.storage import beside, publish, writing
+from vasc.timeline.storage import beside, publish
 
 DOCUMENTS: dict[str, Callable[[Specimen], bytes]] = {
     ".graphml": graphml,

@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from vasc.errors import OutputError
-from vasc.timeline.storage import beside, writing
+from vasc.errors import OutputError, writing
+from vasc.timeline.storage import beside
 
 
 @contextmanager

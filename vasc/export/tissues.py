@@ -10,11 +10,10 @@ from vasc.analysis.ways import ways
 from vasc.arrays import Points
 from vasc.domain import Tissue
 from vasc.domain.tissue_parameters import VoronoiCells
-from vasc.errors import VascError
+from vasc.errors import VascError, writing
 from vasc.export.files import TISSUE_SUFFIX, check_suffix
 from vasc.timeline import Frame, Timeline
 from vasc.timeline.stems import is_stem
-from vasc.timeline.storage import writing
 
 CELL = 2.0
 """Width of a cell in D of the leaf, when not given."""

@@ -7,9 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from vasc.errors import OutputError
+from vasc.errors import OutputError, writing
 from vasc.render.styles import DPI
-from vasc.timeline.storage import writing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

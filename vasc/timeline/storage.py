@@ -309,21 +309,6 @@ def beside(path: Path) -> Path:
     return path.with_name(f".{path.name}.{secrets.token_hex(4)}.new")
 
 
-@contextlib.contextmanager
-def writing(path: Path) -> Iterator[None]:
-    """Tell an error of the system by the name of what is written, not by that of a part of it.
-
-    Raises
-    ------
-    OutputError
-        If the system refuses.
-    """
-    try:
-        yield
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
-
-
 def publish(ready: Path, path: Path, *, force: bool) -> None:
     """Give a finished file its name in one step, replacing nothing unless forced.
 
