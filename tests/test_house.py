@@ -215,8 +215,11 @@ def test_ci_runs_the_test_command_of_the_readme():
     ).stdout
     assert command == 'python -m pip install ".[test]" && python -m pytest'
     assert '\ncheck "$command"\n' in script
-    # no other way in: pytest stands in the line above alone
-    assert script.count("pytest") == 1
+    # no other way in: pytest stands in the line above, and in that of readers too large for all
+    readers = re.findall(r"^check '(.* && python -m pytest .*)'$", script, flags=re.MULTILINE)
+    assert script.count("pytest") == 1 + len(readers) == 2
+    assert '".[readers]"' in readers[0]
+    assert f"| `{readers[0]}` |" in (ROOT / "CONTRIBUTING.md").read_text()
 
 
 def test_ci_builds_the_site_as_the_page_for_contributors_says():
@@ -259,6 +262,12 @@ def test_links_between_pages_lead_somewhere(page):
         target for target in targets if "://" not in target and not (page.parent / target).exists()
     ]
     assert broken == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
+def test_tests_that_pages_name_are_there(page):
+    named = re.findall(r"`(tests/[\w/.-]+)`", page.read_text())
+    assert [name for name in named if not (ROOT / name).exists()] == []
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)

@@ -1,5 +1,9 @@
 """The errors vasc raises on purpose: each names a thing, its value and what is allowed."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
 
 class VascError(Exception):
     """Base of all errors a user can cause or meet; ``exit_code`` is the program's."""
@@ -39,3 +43,18 @@ class RunError(VascError):
     """A run could not go on; what was recorded so far is kept."""
 
     exit_code = 3
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Tell an error of the system by the name of what is written, not by that of a part of it.
+
+    Raises
+    ------
+    OutputError
+        If the system refuses.
+    """
+    try:
+        yield
+    except OSError as error:
+        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error

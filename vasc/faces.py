@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from vasc.arrays import Floats, Ids, Points
+from vasc.arrays import NULL, Floats, Ids, Points
 
 
 @dataclass(frozen=True)
@@ -89,19 +89,36 @@ def face_walks(drawing: Drawing) -> FaceWalks:
     points = drawing.points
     starts = np.concatenate([drawing.segments[:, 0], drawing.segments[:, 1]])
     ends = np.concatenate([drawing.segments[:, 1], drawing.segments[:, 0]])
-    vectors = points[ends] - points[starts]
-    around = np.lexsort((turns(vectors), starts))
+    around = _around(points, drawing.segments, starts)
     followers = _followers(starts, around)
     faces, components = _labels(followers, drawing)
     n_faces = int(faces.max()) + 1
-    # coordinates relative to the first point keep the sums small
-    a, b = points[starts] - points[0], points[ends] - points[0]
-    twice = np.bincount(faces, a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], minlength=n_faces)
+    twice = np.bincount(faces, _crosses(points, drawing.segments), minlength=n_faces)
     of_faces = np.zeros(n_faces, dtype=np.int32)
     of_faces[faces] = components[starts]
     is_outside = np.zeros(n_faces, dtype=bool)
     is_outside[faces[_leftmost(points, starts, components, around)]] = True
     return FaceWalks(starts, ends, faces, of_faces, twice / 2.0, is_outside, followers)
+
+
+def _around(points: Points, segments: Ids, starts: Ids) -> NDArray[np.intp]:
+    """Order half-edges by the point they start from, then by angle."""
+    vectors = points[segments[:, 1]]
+    vectors -= points[segments[:, 0]]
+    angles = np.empty(len(starts))
+    angles[: len(segments)] = turns(vectors)
+    angles[len(segments) :] = turns(np.negative(vectors, out=vectors))
+    return np.lexsort((angles, starts))
+
+
+def _crosses(points: Points, segments: Ids) -> Floats:
+    """Give twice the signed area between the first point and each half-edge."""
+    # coordinates relative to the first point keep the sums small
+    a, b = (points[segments[:, end]] - points[0] for end in (0, 1))
+    crosses = a[:, 0] * b[:, 1]
+    crosses -= a[:, 1] * b[:, 0]
+    # the way back has the negative, bit by bit
+    return np.concatenate([crosses, -crosses])
 
 
 def turns(vectors: Points) -> Floats:
@@ -133,16 +150,41 @@ def _followers(starts: Ids, around: NDArray[np.intp]) -> NDArray[np.intp]:
 
 def _labels(followers: NDArray[np.intp], drawing: Drawing) -> tuple[Ids, Ids]:
     """Give a number to every closed walk of half-edges and to every component of points."""
+    return _numbered(_least_followers(followers)), _components(drawing)
+
+
+def _least_followers(followers: NDArray[np.intp]) -> Ids:
+    """Give the least half-edge of the walk that each half-edge is on."""
+    least = np.arange(len(followers), dtype=np.int32)
+    ahead = followers.astype(np.int32)
+    # pointers are doubled: round k has looked 2^k half-edges ahead
+    for _ in range(len(followers).bit_length()):
+        np.minimum(least, least[ahead], out=least)
+        ahead = ahead[ahead]
+    return least
+
+
+def _components(drawing: Drawing) -> Ids:
+    """Give a number to the component of every point with segments, -1 to others."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
-    def labels(a: NDArray, b: NDArray, size: int) -> Ids:
-        links = coo_array((np.ones(len(a), dtype=np.int8), (a, b)), shape=(size, size))
-        found: Ids = connected_components(links, directed=False)[1]
-        return found
+    # rows of dead nodes would only take memory
+    used = np.unique(drawing.segments)
+    links = np.searchsorted(used, drawing.segments).astype(np.int32)
+    ones = np.ones(len(links), dtype=np.int8)
+    graph = coo_array((ones, (links[:, 0], links[:, 1])), shape=(len(used), len(used)))
+    components = np.full(len(drawing.points), NULL, dtype=np.int32)
+    components[used] = connected_components(graph, directed=False)[1]
+    return components
 
-    faces = labels(np.arange(len(followers)), followers, len(followers))
-    return faces, labels(drawing.segments[:, 0], drawing.segments[:, 1], len(drawing.points))
+
+def _numbered(least: Ids) -> Ids:
+    """Give 0, 1, 2, ... in the place of numbers, in their order."""
+    is_first = np.zeros(len(least), dtype=np.int32)
+    is_first[least] = 1
+    found: Ids = (np.cumsum(is_first, dtype=np.int32) - 1)[least]
+    return found
 
 
 def _leftmost(

@@ -1,7 +1,9 @@
 """The dictionary of numbers."""
 
 import json
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -212,3 +214,20 @@ def test_a_tree_has_no_loops_and_is_its_own_spanning_tree():
     assert found["mst_ratio"] == pytest.approx(1.0)
     assert found["free_end_length_share"] == pytest.approx(1.0)
     assert found["vein_density"] is found["areole_area_mean"] is None
+
+
+def test_the_page_names_every_number_and_no_other():
+    page = (Path(__file__).parents[2] / "docs" / "statistics.md").read_text(encoding="utf-8")
+    table = page.partition("## The numbers")[2].partition("### ")[0]
+    cells = re.findall(r"^\| (`[^|]*) \|", table, re.MULTILINE)
+    named = [name for cell in cells for name in re.findall(r"`([^`]+)`", cell)]
+    net = grid(2, 2)
+    real = RealNetwork(net, np.ones(net.n_segments), net.lengths)
+    found = network_statistics(real)
+    assert sorted(named) == sorted(found)
+
+
+def test_a_lone_ring_has_nothing_to_connect():
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1.0]])
+    ring = RealNetwork.from_edges(square, np.array([[0, 1], [1, 2], [2, 3], [3, 0]]))
+    assert network_statistics(ring)["mst_ratio"] is None

@@ -276,3 +276,19 @@ def test_a_table_of_other_models_is_to_be_removed(canals, capsys, key):
         f'unknown key; other models have {key}, kind "canalization" has none: remove the table'
         f" [{key}]"
     )
+
+
+def test_loops_of_given_veins_are_areoles_and_no_sequence(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    ring = "[[2, 4], [11, 4], [11, 8]], [[2, 4], [2, 8], [11, 8]]"
+    (tmp_path / "ring.toml").write_text(CANALS.replace("[[2, 8]], [[10, 8]]", ring))
+    assert main(["run", "ring.toml", "--steps", "2", "--no-figure", "-q"]) == 0
+    assert main(["stats", "ring.h5", "--step", "0", "--json"]) == 0
+    counted = json.loads(capsys.readouterr().out)["areoles"]
+    with Timeline("ring.h5") as timeline:
+        tree = timeline.lineage.genealogy(0)
+        assert tree.n_areoles == counted == 1
+        assert (tree.births.tolist(), tree.parents.tolist()) == ([0], [-1])
+    assert main(["check", "sequence", "ring.h5"]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("ring.h5: is a run on a tissue")

@@ -217,8 +217,11 @@ def test_the_fate_of_a_source_is_what_the_events_say(leaf, capsys):
 @pytest.mark.parametrize(
     ("arguments", "part"),
     [
-        ([], "one of --node ID, --source ID and --areole ID"),
-        (["--node", "1", "--source", "1"], "one of --node ID, --source ID and --areole ID"),
+        ([], "give one of --node ID, --source ID, --areole ID"),
+        (
+            ["--node", "1", "--source", "1"],
+            "--node and --source are questions of their own: give one",
+        ),
         (["--node", "999999"], "no node 999999"),
         (["--source", "999999"], "no source 999999"),
     ],

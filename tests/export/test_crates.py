@@ -1,9 +1,12 @@
 """A crate holds the run and all that belongs to it, is read by others, and is the same twice."""
 
+import gzip
 import json
+import re
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -18,6 +21,8 @@ from vasc.timeline import Timeline
 
 rocrate = pytest.importorskip("rocrate.rocrate")
 
+TIMELINES = Path(__file__).resolve().parents[1] / "data" / "timelines" / "1.0"
+BLADE = "my blade \u00e9+(1).csv"
 LICENSE = "https://spdx.org/licenses/CC-BY-4.0"
 
 
@@ -123,28 +128,31 @@ def test_two_crates_of_a_run_are_the_same_bytes(runs, kind, tmp_path):
 
 def test_files_of_a_config_go_with_it_and_the_config_runs(runs, tmp_path):
     (tmp_path / "in").mkdir()
-    (tmp_path / "in" / "blade.csv").write_text("x,y\n0,0\n6,4\n5,14\n0,20\n-5,14\n-6,4\n")
+    (tmp_path / "in" / BLADE).write_text("x,y\n0,0\n6,4\n5,14\n0,20\n-5,14\n-6,4\n")
     (tmp_path / "in" / "leaf.toml").write_text(
-        'kind = "open"\n[domain]\nfile = "blade.csv"\nlength = 20.0\n[growth]\nkind = "none"\n'
+        f'kind = "open"\n[domain]\nfile = "{BLADE}"\nlength = 20.0\n[growth]\nkind = "none"\n'
         '[placement]\nkind = "given"\npoints = [[0.0, 9.0]]\n[arrival]\nkill_distance = 2.0\n'
     )
     run(load(str(tmp_path / "in" / "leaf.toml")), tmp_path / "leaf.h5")
     crate = export_crate(tmp_path / "leaf.h5", tmp_path / "leaf.crate")
-    blade = (tmp_path / "in" / "blade.csv").read_bytes()
-    assert (crate / "config" / "blade.csv").read_bytes() == blade
+    blade = (tmp_path / "in" / BLADE).read_bytes()
+    assert (crate / "config" / BLADE).read_bytes() == blade
     summary = run(load(str(crate / "config" / "config.toml")), tmp_path / "again.h5")
     with Timeline(tmp_path / "leaf.h5") as first:
         assert summary.nodes == first.n_rows("nodes")
+    export_crate(tmp_path / "leaf.h5", crate, force=True)
 
 
 def test_a_file_of_a_config_does_not_leave_the_crate(tmp_path):
     from vasc.crates.writing import _place
 
-    outward = ["../a.csv", "..", "a/../../b", str(tmp_path / "c"), "config.toml"]
+    outward = ["../a.csv", "..", "a/../../b", str(tmp_path / "c"), "config.toml", "a\0b", ".x"]
+    outward += ["", "a" * 300, "\x1b[2J", r"..\a", "files/b.csv"]
     places = [_place(name, number) for number, name in enumerate(outward)]
     assert len(set(places)) == len(outward)
-    assert all(place.startswith("config/files/") and ".." not in place[13:].split("/")
-               for place in places)  # fmt: skip
+    for place in places:
+        assert re.fullmatch(r"config/files/\d+-[\w.+-]{0,100}", place)
+    assert _place(BLADE, 3) == f"config/{BLADE}"
 
 
 def test_without_author_and_licence_the_crate_says_so(runs, tmp_path):
@@ -176,12 +184,46 @@ def test_a_folder_of_another_is_never_replaced(runs, tmp_path):
         export_crate(runs.open, tmp_path / "my-crate", force=True)
 
 
+ODD = {"session": 0, "software": ["vasc"], "outcome": 3, "started": {"a": "\x1b[2J"}, "kind": None}
+WORDS = {"session": 1, "software": {"a b/../c\n": {"x": 1}, "vasc": None}, "ended": "\x00"}
+
+
+def test_odd_words_of_a_timeline_are_words(runs, tmp_path, monkeypatch):
+    monkeypatch.setattr(Timeline, "provenance", [ODD, WORDS])
+    graph = graph_of(export_crate(runs.open, tmp_path / "a.crate", license="\x1b[2J a licence"))
+    text = json.dumps(graph)
+    assert "\\u001b" not in text
+    assert "\\u0000" not in text
+    assert {"#session-0", "#session-1", "#vasc-None"} <= set(graph)
+    assert graph["./"]["license"] == "[2J a licence"
+
+
+@pytest.mark.parametrize("files", [["a.csv"], {"a.csv": 3}, {"a.csv": "no base64!"}])
+def test_damaged_files_of_a_config_are_refused(runs, files, tmp_path, monkeypatch):
+    with Timeline(runs.open) as timeline:
+        config = timeline.config
+    monkeypatch.setattr(Timeline, "config", config | {"files": files})
+    with pytest.raises(TimelineError, match=r"the files of the config|the recorded file 'a.csv'"):
+        export_crate(runs.open, tmp_path / "a.crate")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["explicit", "tissue", "interrupted"])
+def test_runs_of_every_kind_become_crates_that_are_read(name, tmp_path):
+    path = tmp_path / f"{name}.h5"
+    path.write_bytes(gzip.decompress((TIMELINES / f"{name}.h5.gz").read_bytes()))
+    crate = export_crate(path, tmp_path / "a.crate")
+    parts = {part.id for part in rocrate.ROCrate(crate).root_dataset["hasPart"]}
+    assert parts == set(files_of(crate)) - {"ro-crate-metadata.json"}
+    assert ("config/stretch.csv" in parts) == (name == "explicit")
+
+
 def test_what_goes_wrong_leaves_nothing(runs, tmp_path, monkeypatch):
     def fail(*_, **__):
         raise OSError("no space")
 
     monkeypatch.setattr("vasc.crates.writing.render", fail)
-    with pytest.raises(OSError, match="no space"):
+    with pytest.raises(OutputError, match="no space"):
         export_crate(runs.open, tmp_path / "a.crate")
     with pytest.raises(TimelineError):
         export_crate(citation_file(), tmp_path / "b.crate")

@@ -71,7 +71,10 @@ def test_shapely_reads_the_features(timeline, tmp_path):
     places = shapely.get_coordinates(lines, include_z=len(found.axes) == 3)
     np.testing.assert_array_equal(places, found.positions[found.ends].reshape(-1, len(found.axes)))
     said = [each["properties"] for each in veins]
-    assert [each["id"] for each in said] == found.segment_ids.tolist()
+    assert [each["segment"] for each in said] == found.segment_ids.tolist()
+    nodes = [[each["proximal_node"], each["distal_node"]] for each in said]
+    assert nodes == found.ids[found.ends].tolist()
+    assert len({each["id"] for each in collection["features"]}) == len(collection["features"])
     assert [each["vein_birth"] for each in said] == found.vein_births.tolist()
     assert [each["segment_birth"] for each in said] == found.segment_births.tolist()
     assert [each["kind"] for each in said] == [KINDS[kind] for kind in found.kinds.tolist()]

@@ -14,7 +14,7 @@ from timeline.synthetic import contents
 from vasc import experiment
 from vasc.config import load_text
 from vasc.timeline import Recorder, Timeline, writer
-from vasc.timeline.redo import pager
+from vasc.timeline.redo import log, pager
 
 LEAF = """
 kind = "closed"
@@ -136,10 +136,11 @@ def telling(acknowledged: Callable[[int], None]):
 
 @contextmanager
 def small_batches(frames: int = 4, commits: int = 4):
-    """Let few frames be a commit, and few commits be applied together."""
+    """Let few frames be a commit, few commits be applied together, and logs stay short."""
     with (
         patch.object(writer, "BATCH_FRAMES", frames),
         patch.object(pager, "BATCH_COMMITS", commits),
+        patch.object(log, "KEPT_BYTES", 400_000),
     ):
         yield
 

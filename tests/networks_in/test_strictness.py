@@ -76,3 +76,10 @@ def test_marks_in_geojson_steer_no_terminal(tmp_path):
     line = {"type": "LineString", "coordinates": [["\x1b[2J", 0], [1, 1]]}
     (tmp_path / "a.json").write_text(json.dumps(line))
     assert r"\x1b" in complaint(tmp_path / "a.json")
+
+
+@pytest.mark.parametrize("place", ["1e-100", "1e-162", "1e-13"])
+def test_networks_too_small_to_square(tmp_path, place):
+    (tmp_path / "a_nodes.csv").write_text(f"id,x,y\n1,0,0\n2,{place},0\n")
+    (tmp_path / "a_edges.csv").write_text(EDGES)
+    assert "too small for squares of lengths" in complaint(tmp_path / "a.csv")

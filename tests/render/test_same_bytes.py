@@ -22,9 +22,9 @@ def runs(tmp_path_factory):
     return {"leaf": folder / "leaf.h5", "stem": recorded_in(folder)}
 
 
-def drawn(path, output, hash_seed):
+def drawn(path, output, hash_seed, *options):
     """Draw in a process of its own; give the bytes."""
-    command = [sys.executable, "-m", "vasc", "render", path, "-o", output]
+    command = [sys.executable, "-m", "vasc", "render", path, "-o", output, *options]
     # a clock that a picture must not know, and an order of sets that it must not follow
     environment = os.environ | {"PYTHONHASHSEED": hash_seed, "SOURCE_DATE_EPOCH": hash_seed}
     subprocess.run(command, env=environment, check=True, capture_output=True)
@@ -32,10 +32,14 @@ def drawn(path, output, hash_seed):
 
 
 @pytest.mark.parametrize("suffix", ["png", "svg", "pdf"])
-@pytest.mark.parametrize("kind", ["leaf", "stem"])
-def test_two_processes_draw_the_same_bytes(runs, kind, suffix, tmp_path):
+@pytest.mark.parametrize(
+    ("kind", "options"),
+    [("leaf", ()), ("stem", ("--unroll",)), pytest.param("stem", (), marks=pytest.mark.slow)],
+    ids=["leaf", "flat-stem", "stem"],
+)
+def test_two_processes_draw_the_same_bytes(runs, kind, options, suffix, tmp_path):
     first, second = (
-        drawn(runs[kind], tmp_path / f"{seed}.{suffix}", seed) for seed in ("1", "86400")
+        drawn(runs[kind], tmp_path / f"{seed}.{suffix}", seed, *options) for seed in ("1", "86400")
     )
     assert first == second
 

@@ -109,7 +109,9 @@ def test_a_place_tells_its_vein_its_source_and_its_areoles(timeline):
     assert sorted(ends) == sorted(tree.boundaries[child][:2].tolist())
     assert found.node == max(ends)
     assert found.vein == lineage.veins.firsts[found.node]
-    assert found.source == lineage.source_of(found.node)
+    row = frame.network.segment_ids.tolist().index(found.segment)
+    assert found.source == frame.network.growths.causes[row] >= 0
+    assert found.vein_birth <= found.grown == frame.network.vein_births[row]
     assert found.source_birth == lineage.fate_of(found.source).birth
     # before the split the parent was there
     assert lineage.at(*young_place(timeline, 0)).areoles == (0,)

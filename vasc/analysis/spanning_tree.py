@@ -16,7 +16,8 @@ def mst_ratio(sections: Sections) -> float:
     Returns
     -------
     float
-        1 for a tree, nan without veins. A loop is opened by a whole section.
+        1 for a tree, nan where no section has two ends, as without veins or of a lone
+        ring: there is nothing to connect. A loop is opened by a whole section.
     """
     if not sections.n_sections:
         return float("nan")
@@ -27,6 +28,8 @@ def mst_ratio(sections: Sections) -> float:
     order = np.lexsort((sections.lengths, ends[:, 1], ends[:, 0]))
     order = order[ends[order, 0] != ends[order, 1]]
     # of sections between the same points only the shortest can be in a tree
+    if not len(order):
+        return float("nan")
     is_new = np.r_[True, (np.diff(ends[order], axis=0) != 0).any(axis=1)][: len(order)]
     order = order[is_new]
     size = len(sections.drawing.points)

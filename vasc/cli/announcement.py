@@ -27,12 +27,16 @@ class Announcement:
         What is run.
     progress : ProgressLine
         What makes room on the terminal.
+    is_made : bool
+        Nothing is to be written any more.
     """
 
-    def __init__(self, experiment: Experiment, progress: ProgressLine) -> None:
+    def __init__(
+        self, experiment: Experiment, progress: ProgressLine, *, is_made: bool = False
+    ) -> None:
         self.experiment = experiment
         self.progress = progress
-        self.is_made = False
+        self.is_made = is_made
         self.size: ExpectedSize | None = None
 
     def expect(self, size: ExpectedSize) -> None:

@@ -30,6 +30,8 @@ def compare(
 
     files = (one, other)
     is_run = [not is_network_file(path) for path in files]
+    if step != -1 and not any(is_run):
+        raise typer.BadParameter(f"--step {step}: neither {one} nor {other} is a run with steps")
     asked = [step if runs else -1 for runs in is_run]
     columns = [measured(path, at, seed) for path, at in zip(files, asked, strict=True)]
     runs = two_runs(one, other) if all(is_run) else None

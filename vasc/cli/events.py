@@ -36,6 +36,8 @@ def events(
     if as_csv and as_json:
         raise typer.BadParameter("--csv and --json exclude each other")
     with Timeline(path) as timeline:
+        # refuses a run without a step
+        timeline.frame()
         rows, n_found = select(timeline, kinds or [], first, last, limit)
     if as_json:
         found = [dict(zip(HEADER, row, strict=True)) for row in rows]

@@ -93,6 +93,13 @@ def complain(line: str) -> None:
         sys.stderr.flush()
 
 
+def provide_outputs() -> None:
+    """Let a program whose outputs were closed before it began write to nowhere."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
+
+
 def silence_output() -> None:
     """Let Python close an output nobody reads without a complaint."""
     with suppress(OSError, ValueError):

@@ -46,6 +46,8 @@ def growth_figure(path: Path, steps: Sequence[int]) -> "Figure":
         Timeline(path) as timeline,
         experiment_from_record(timeline.config, name=str(path)) as experiment,
     ):
+        # refuses a run without a step
+        timeline.frame()
         if not isinstance(experiment.parameters, LeafVenation):
             raise ConfigError(f"{path}: kind = {experiment.kind!r}: has no blade that grows")
         growth = experiment.parameters.grown(experiment.folder)

@@ -90,6 +90,8 @@ def lineage(
     if as_csv and (as_json or asked):
         raise typer.BadParameter("--csv is for tables, and excludes --json")
     with Timeline(path) as timeline:
+        # refuses a run without a step
+        timeline.frame()
         if tables:
             table = lineage_tables.asked_for(timeline, tables[0], competitors)
             lineage_tables.write(tables[0], table, limit, as_csv=as_csv, as_json=as_json)

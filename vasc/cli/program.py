@@ -24,7 +24,8 @@ from vasc.cli import (
     validate,
     verify,
 )
-from vasc.cli.failures import end_of, interruptible, without_lines_of_code
+from vasc.cli.commands import Verb
+from vasc.cli.failures import end_of, interruptible, provide_outputs, without_lines_of_code
 from vasc.cli.start import rare_collections
 
 # the order of a first day with vasc
@@ -76,11 +77,13 @@ app = typer.Typer(
 )
 for _module in VERBS:
     _name = _module.__name__.rpartition(".")[2]
-    app.command(_name, epilog=examples(_module.EXAMPLES))(interruptible(getattr(_module, _name)))
+    _verb = interruptible(getattr(_module, _name))
+    app.command(_name, cls=Verb, epilog=examples(_module.EXAMPLES))(_verb)
 for _group, _verbs in GROUPS:
     _below = typer.Typer(rich_markup_mode=None, no_args_is_help=True)
     for _name, _lines in _verbs.items():
-        _below.command(_name, epilog=examples(_lines))(interruptible(getattr(_group, _name)))
+        _verb = interruptible(getattr(_group, _name))
+        _below.command(_name, cls=Verb, epilog=examples(_lines))(_verb)
     app.add_typer(
         _below,
         name=_group.__name__.rpartition(".")[2],
@@ -127,6 +130,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     own = arguments[: arguments.index("--")] if "--" in arguments else arguments
     rest = arguments[len(own) :]
+    provide_outputs()
     try:
         with rare_collections(), without_lines_of_code():
             code = app(

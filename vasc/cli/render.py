@@ -60,6 +60,10 @@ def render(
     chosen = [name for name, is_chosen in forms.items() if is_chosen]
     if len(chosen) > 1:
         raise typer.BadParameter(f"{chosen[0]} and {chosen[1]} exclude each other")
+    if chosen and not unroll:
+        ignored = [("--color", color is not None), ("--sources", sources)]
+        for name in (one for one, is_given in ignored if is_given):
+            raise typer.BadParameter(f"{name} is not for {chosen[0]}; leave one of them out")
     if growth:
         from vasc.cli.growing import growth_figure
 

@@ -73,26 +73,30 @@ def run(
 
     with Interrupts() as interrupts, ProgressLine(quiet=quiet) as progress:
         load_numba()
-        announcement = Announcement(experiment, progress)
-        announced = () if quiet or as_json else (announcement,)
+        announcement = Announcement(experiment, progress, is_made=quiet or as_json)
         summary = experiments.run(
             experiment,
             output,
             force=force,
             large=large,
             steps=steps,
-            observers=[*announced, progress],
+            observers=[announcement, progress],
             should_stop=interrupts.should_stop,
             on_size=announcement.expect,
         )
     end_if_interrupted(summary, interrupts)
-    files = [output]
-    if figure is not None:
-        from vasc.render import render
-
-        files.append(render(output, figure, unroll=experiment.kind == "stem"))
+    files = [output, *_drawn(output, figure, unroll=experiment.kind == "stem")]
     if as_json or not quiet:
         print_summary(summary, files, as_json=as_json)
+
+
+def _drawn(output: Path, figure: Path | None, *, unroll: bool) -> list[Path]:
+    """Draw the last step, if asked for; give the picture."""
+    if figure is None:
+        return []
+    from vasc.render import render
+
+    return [render(output, figure, unroll=unroll)]
 
 
 def changed(config: str, changes: Sequence[str], seed: int | None) -> "Experiment":

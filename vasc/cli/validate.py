@@ -114,6 +114,11 @@ def _check_output(output: Path, suite: str | None, *, force: bool) -> None:
     if suite == "leaf" and output.is_dir():
         return
     check_picture(output, force=force)
+    from vasc.render.saving import PICTURE_SUFFIXES, checked_output
+
+    # a minute of simulations, and then no picture, is what this saves
+    of_tables = (".json",) if suite is None else ()
+    checked_output(output, (*PICTURE_SUFFIXES, *of_tables))
 
 
 def _write(output: Path, suites: list[dict[str, Any]]) -> None:

@@ -121,36 +121,39 @@ def _describe_sessions(crate: Any, timeline: Timeline, people: Sequence[Any]) ->
     config, recorded = crate.get(CONFIG), crate.get(TIMELINE)
     actions = []
     for session in timeline.provenance:
-        program = _program(crate, session.get("software", {}))
+        software = session.get("software")
+        program = _program(crate, software if isinstance(software, Mapping) else {})
         action = {
             "@type": "CreateAction",
-            "name": f"vasc {session.get('kind', 'run')}",
+            "name": f"vasc {_said(session, 'kind')}",
             "description": f"Session {session['session']} of the run, to step"
-            f" {session.get('last_step', 'unknown')}: {plain(str(session.get('outcome')))}",
+            f" {_said(session, 'last_step')}: {_said(session, 'outcome')}",
             "instrument": {"@id": program.id},
             "object": {"@id": config.id},
             "result": {"@id": recorded.id},
-            "startTime": session.get("started"),
-            "endTime": session.get("ended"),
-            "actionStatus": _status(session),
         }
+        for name, key in (("startTime", "started"), ("endTime", "ended")):
+            if key in session:
+                action[name] = _said(session, key)
+        if "outcome" in session:
+            word = "Failed" if "failed" in _said(session, "outcome") else "Completed"
+            action["actionStatus"] = f"http://schema.org/{word}ActionStatus"
         if people:
             action["agent"] = _one_or_all([{"@id": person.id} for person in people])
-        known = {key: value for key, value in action.items() if value is not None}
-        actions.append(_add(crate, f"#session-{session['session']}", known))
+        actions.append(_add(crate, f"#session-{session['session']}", action))
     if actions:
         crate.root_dataset["mentions"] = _one_or_all(actions)
 
 
 def _program(crate: Any, software: Mapping[str, str]) -> Any:
     """Describe vasc as it was in a session, and the packages that it ran with."""
-    versions = {name: plain(str(version)) for name, version in software.items()}
+    versions = {plain(str(name)): plain(str(version)) for name, version in software.items()}
     names = {name: _identifier(name, version) for name, version in versions.items()}
     for name, version in versions.items():
         if crate.get(names[name]) is None:
             properties: dict[str, Any] = {
                 "@type": "SoftwareApplication",
-                "name": plain(name),
+                "name": name,
                 "softwareVersion": version,
             }
             if name in SOFTWARE:
@@ -179,18 +182,18 @@ def _one_or_all(values: Sequence[Any]) -> Any:
     return values[0] if len(values) == 1 else list(values)
 
 
-def _status(session: Mapping[str, Any]) -> str | None:
-    """Give how a session ended, in the words of schema.org; None of one that was killed."""
-    outcome = session.get("outcome")
-    if outcome is None:
-        return None
-    return f"http://schema.org/{'Failed' if 'failed' in outcome else 'Completed'}ActionStatus"
+def _said(session: Mapping[str, Any], key: str) -> str:
+    """Give what a session says of itself, on one line."""
+    return plain(str(session.get(key, "unknown")))
 
 
 def _recorded_time(timeline: Timeline) -> str:
     """Give when the run ended, or last began if it was killed: no clock is asked."""
-    times = [session.get("ended") or session.get("started") for session in timeline.provenance]
-    return next((str(time) for time in reversed(times) if time), "1970-01-01")
+    for session in reversed(timeline.provenance):
+        for key in ("ended", "started"):
+            if key in session:
+                return _said(session, key)
+    return "1970-01-01"
 
 
 def _add(crate: Any, identifier: str, properties: Mapping[str, Any]) -> Any:

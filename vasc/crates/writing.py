@@ -2,6 +2,7 @@
 
 import base64
 import json
+import re
 import shutil
 from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
@@ -85,7 +86,9 @@ def export_crate(
         shutil.copyfile(run, folder / TIMELINE)
         with Timeline(run) as timeline, Timeline(folder / TIMELINE) as copied:
             if timeline.n_frames != copied.n_frames:
-                raise TimelineError(f"{run}: is being written; export it when the run has ended")
+                raise TimelineError(
+                    f"{run}: is being written, or was killed; wait, or `vasc resume` it first"
+                )
             files = _fill(copied, folder, step)
             crate = described(copied, files, folder, authors=authors, license=license)
         crate.metadata.write(folder)
@@ -99,7 +102,7 @@ def _fill(timeline: Timeline, folder: Path, step: int) -> dict[str, str]:
     files = {TIMELINE: "The recorded run: every step, with its config and provenance"}
     (folder / CONFIG).write_text(timeline.config_toml, encoding="utf-8")
     files[CONFIG] = "The config as it was given"
-    for name, content in (timeline.config.get(FILES_KEY) or {}).items():
+    for name, content in _attached(timeline).items():
         place = _place(name, len(files))
         (folder / place).parent.mkdir(parents=True, exist_ok=True)
         (folder / place).write_bytes(_decoded(timeline, name, content))
@@ -120,12 +123,20 @@ def _fill(timeline: Timeline, folder: Path, step: int) -> dict[str, str]:
     return files
 
 
+def _attached(timeline: Timeline) -> dict[str, Any]:
+    """Give the files that travelled with a timeline, packed, by the names in its config."""
+    files = timeline.config.get(FILES_KEY, {})
+    if not isinstance(files, dict):
+        raise TimelineError(f"{timeline.path}: the files of the config are no table")
+    return files
+
+
 def _place(name: str, number: int) -> str:
     """Give where a file of the config goes: beside it by its name, if that leads nowhere else."""
-    pure = PurePosixPath(name)
-    if len(pure.parts) == 1 and pure.name not in ("..", PurePosixPath(CONFIG).name):
-        return f"config/{pure.name}"
-    return f"config/files/{number}-{pure.name}"
+    if re.fullmatch(r"\w[\w .()+-]{0,99}", name) and name != PurePosixPath(CONFIG).name:
+        return f"config/{name}"
+    last = re.sub(r"[^\w.+-]", "_", PurePosixPath(name).name)[-100:]
+    return f"config/files/{number}-{last}"
 
 
 def _decoded(timeline: Timeline, name: str, content: Any) -> bytes:
@@ -150,4 +161,6 @@ def _is_part(name: Path, path: Path, listed: set[str]) -> bool:
     """Tell whether a path in a folder is one that a crate has."""
     if path.is_dir():
         return name.as_posix() in FOLDERS
-    return bool(listed) and name.as_posix() in listed | {METADATA}
+    # a crate lists the addresses of its files
+    address = PurePosixPath("/", name.as_posix()).as_uri().removeprefix("file:///")
+    return address in listed or name.as_posix() in listed

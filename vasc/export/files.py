@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from vasc.errors import OutputError
+from vasc.errors import OutputError, VascError, writing
 from vasc.export.drawing import svg
 from vasc.export.folders import check_folder, new_folder
 from vasc.export.graphml import graphml
@@ -145,6 +145,9 @@ def _content(timeline: Timeline, suffix: str, step: int, spanning: bool) -> byte
     """Give the bytes of a file that holds one step."""
     if suffix in MESH_SUFFIXES:
         mesh, heading = _mesh(timeline, step)
+        if not len(mesh.faces):
+            at = timeline.frame(step).step
+            raise VascError(f"{timeline.path}: there is no vein at step {at} to make a solid of")
         return packed(mesh, suffix, heading)
     exported = specimen(timeline, step)
     if suffix in TREES:
@@ -177,7 +180,8 @@ def _write(output: Path, content: bytes, *, force: bool) -> None:
     """Write a file in one go, so that no half file is left behind."""
     ready = beside(output)
     try:
-        ready.write_bytes(content)
+        with writing(output):
+            ready.write_bytes(content)
         publish(ready, output, force=force)
     finally:
         ready.unlink(missing_ok=True)

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from vasc.errors import OutputError
+from vasc.errors import OutputError, writing
 from vasc.timeline.storage import beside
 
 
@@ -22,20 +22,27 @@ def new_folder(folder: Path) -> Iterator[Path]:
     ------
     Path
         Where to write what it is to hold.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be written.
     """
     folder = folder.resolve()
     ready, old = beside(folder), beside(folder)
-    ready.mkdir()
+    with writing(folder):
+        ready.mkdir()
     try:
-        yield ready
-        if folder.exists():
-            folder.rename(old)
-        try:
-            ready.rename(folder)
-        except BaseException:
-            if old.exists():
-                old.rename(folder)
-            raise
+        with writing(folder):
+            yield ready
+            if folder.exists():
+                folder.rename(old)
+            try:
+                ready.rename(folder)
+            except BaseException:
+                if old.exists():
+                    old.rename(folder)
+                raise
     finally:
         for left in (ready, old):
             shutil.rmtree(left, ignore_errors=True)

@@ -86,11 +86,13 @@ def _features(specimen: Specimen) -> list[dict[str, Any]]:
     places = np.asarray(specimen.positions)[specimen.ends].tolist()
     for row, pair, line in zip(zip(*columns.values(), strict=True), pairs, places, strict=True):
         said = dict(zip(columns, row, strict=True))
-        said |= {"proximal": pair[0], "distal": pair[1]}
+        # a row of one table is no row of another: what an id is of stands in its name
+        segment = said.pop("id")
+        said = {"segment": segment, "proximal_node": pair[0], "distal_node": pair[1]} | said
         found.append(
             {
                 "type": "Feature",
-                "id": said["id"],
+                "id": f"segment {segment}",
                 "properties": {"what": "vein", **said},
                 "geometry": {"type": "LineString", "coordinates": line},
             }

@@ -10,7 +10,7 @@ from vasc.analysis.ways import ways
 from vasc.arrays import Points
 from vasc.domain import Tissue
 from vasc.domain.tissue_parameters import VoronoiCells
-from vasc.errors import VascError
+from vasc.errors import VascError, writing
 from vasc.export.files import TISSUE_SUFFIX, check_suffix
 from vasc.timeline import Frame, Timeline
 from vasc.timeline.stems import is_stem
@@ -21,6 +21,8 @@ SLACK = 0.25
 """Lines of veins are simplified by at most that, in cells."""
 DIGITS = 4
 """Digits after the point of a place, in cells."""
+MIN_CORNERS = 3
+"""Corners of an outline that holds anything."""
 SEED = 1
 """Seed of the random cells."""
 
@@ -65,7 +67,8 @@ def export_tissue(
     else:
         with Timeline(run) as timeline:
             text = tissue_config(timeline, step, cell)
-    output.write_text(text, encoding="utf-8")
+    with writing(output):
+        output.write_text(text, encoding="utf-8")
     return output
 
 
@@ -87,6 +90,11 @@ def tissue_config(timeline: Timeline, step: int = -1, cell: float = CELL) -> str
         )
     name = timeline.path.name
     blade = _blade_table(frame, cell)
+    if len(blade["points"]) < MIN_CORNERS:
+        raise VascError(
+            f"step {frame.step}, cells of {cell:g} D: the blade is smaller than a cell; give a"
+            " smaller --cell"
+        )
     try:
         domain = VoronoiCells.model_validate({"blade": blade})
         tissue = domain.tissue(SEED)
@@ -143,6 +151,8 @@ def _blade_table(frame: Frame, cell: float) -> dict[str, Any]:
     ring = np.round(frame.blade.rings[0] / cell, DIGITS)
     # points closer than the last digit are one
     ring = ring[(ring != np.roll(ring, 1, axis=0)).any(axis=1)]
+    if len(ring) < MIN_CORNERS:
+        return {"points": ring.tolist()}
     lowest = ring[np.lexsort((np.abs(ring[:, 0]), ring[:, 1]))[0]]
     table = {"points": ring.tolist(), "length": round(float(ring[:, 1].max()), DIGITS)}
     if not (ring == 0.0).all(axis=1).any():

@@ -105,10 +105,17 @@ class Edges:
         Raises
         ------
         NetworkError
-            If there is no edge, or some edges have a width or length and others none.
+            If there is no edge, some edges have a width or length and others none, or
+            the network is too small.
         """
         if not self.pairs:
             raise NetworkError(f"{self.name}: holds no edge; a network needs one at least")
+        extent = float(np.ptp(self.places, axis=0).max())
+        if 0.0 < extent < 1.0 / LARGEST:
+            raise NetworkError(
+                f"{self.name}: the network is {extent:g} across, too small for squares of lengths;"
+                " give places in a smaller unit"
+            )
         return RealNetwork.from_edges(
             np.array(self.places, dtype=np.float64).reshape(-1, 2),
             np.array(self.pairs, dtype=np.int32).reshape(-1, 2),

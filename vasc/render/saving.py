@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from vasc.errors import OutputError
+from vasc.errors import OutputError, writing
 from vasc.render.styles import DPI
 
 if TYPE_CHECKING:
@@ -54,7 +54,8 @@ def save(figure: Figure, output: str | Path) -> None:
     with rc_context(_SETTINGS):
         figure.savefig(picture, format=kind[1:], dpi=DPI, metadata=_METADATA[kind])
     # written in one go, so that no half picture is left behind
-    output.write_bytes(picture.getvalue())
+    with writing(output):
+        output.write_bytes(picture.getvalue())
 
 
 def checked_output(output: str | Path, suffixes: Sequence[str]) -> Path:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vasc.arrays import NULL, Ids
 from vasc.errors import TimelineError
 from vasc.events import EventKind
+from vasc.network import VeinNetwork
 from vasc.timeline.frame import Frame
 
 if TYPE_CHECKING:
@@ -189,14 +190,45 @@ def _found(frame: Frame) -> tuple[Genealogy, Loops]:
 
 
 def _closures(frame: Frame) -> list[tuple[int, int, int]]:
-    """Give each segment that closed a loop, a living piece of it, and the step; newest first."""
+    """Give each segment that closed a loop, a living piece of it, and the step; newest first.
+
+    There has to be a segment.
+    """
     events = {name: frame.rows("events", name) for name in ("step", "kind", "subject")}
     growths = frame.network.growths
-    alive = frame.network.segment_ids if growths is None else growths.ids
-    rows = dict(zip(alive.tolist()[::-1], range(len(alive) - 1, -1, -1), strict=True))
+    pieces = frame.network.segment_ids if growths is None else growths.ids
+    # the first living piece of each
+    order = np.argsort(pieces, kind="stable")
     closed = np.flatnonzero(events["kind"] == EventKind.LOOP_CLOSED)[::-1]
-    pairs = zip(events["subject"][closed].tolist(), events["step"][closed].tolist(), strict=True)
-    return [(segment, rows[segment], step) for segment, step in pairs if segment in rows]
+    segments, steps = events["subject"][closed], events["step"][closed]
+    places = np.searchsorted(pieces[order], segments)
+    rows = order[np.minimum(places, len(order) - 1)]
+    is_alive = pieces[rows] == segments
+    found = list(
+        zip(*(values[is_alive].tolist() for values in (segments, rows, steps)), strict=True)
+    )
+    known = {segment for segment, _, _ in found}
+    given = [one for one in _given_closures(frame.network) if int(pieces[one]) not in known]
+    return found + [(int(pieces[row]), row, 0) for row in given[::-1]]
+
+
+def _given_closures(network: VeinNetwork) -> list[int]:
+    """Give the segments that close loops of given veins, by row: no event tells of them."""
+    above: dict[int, int] = {}
+
+    def top(node: int) -> int:
+        while (upper := above.get(node, node)) != node:
+            above[node] = above.get(upper, upper)
+            node = upper
+        return node
+
+    closing = []
+    for row in np.flatnonzero(network.vein_births == 0).tolist():
+        first, second = (top(node) for node in network.segments[row].tolist())
+        if first == second:
+            closing.append(row)
+        above[first] = second
+    return closing
 
 
 class _Merged:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vasc.arrays import NULL, Floats, Ids, Points
 from vasc.errors import TimelineError
+from vasc.network import VeinNetwork
 from vasc.timeline import genealogy
 from vasc.timeline.frame import Frame
 from vasc.timeline.genealogy import Genealogy
@@ -39,10 +40,10 @@ class PlaceHistory:
         The nearest segment.
     distance : float
         How far it is, in D.
+    grown : int
+        The step in which the vein grew there; the segment may be younger, by refinement.
     node : int
         The younger end of that segment.
-    node_birth : int
-        Step of birth of the node.
     vein : int
         The first node of its vein.
     vein_birth : int
@@ -50,7 +51,7 @@ class PlaceHistory:
     branching_order : int
         Branching order of the vein.
     source : int
-        The source that caused the node, -1 if none.
+        The source that caused the vein there, -1 if none.
     source_birth, source_removed : int
         Steps of birth and death of that source, -1 if there is none, or it lives.
     areole : int
@@ -65,8 +66,8 @@ class PlaceHistory:
     step: int
     segment: int
     distance: float
+    grown: int
     node: int
-    node_birth: int
     vein: int
     vein_birth: int
     branching_order: int
@@ -111,24 +112,26 @@ def history_at(
         on the blade nor at a vein.
     """
     tree = genealogy.genealogy_of(timeline, frame.step)[0]
-    segment, distance, node = _nearest(frame, np.array(place))
-    if segment == NULL:
+    network = frame.network
+    if not network.n_segments:
         raise TimelineError(f"{timeline.path}: there is no vein at step {frame.step}")
+    row, distance = _nearest(network, np.array(place))
     if distance > BESIDE and not frame.blade.contains(np.array([place]))[0]:
         raise TimelineError(f"{timeline.path}: {_off(frame, place, distance)}")
-    vein, source = int(veins.firsts[node]), int(frame.rows("nodes", "source")[node])
-    births = frame.rows("nodes", "birth")
+    node = int(network.segments[row].max())
+    vein = int(veins.firsts[node])
+    source = int(network.causes[node] if network.growths is None else network.growths.causes[row])
     areole = _holding(tree, frame.positions, place)
     areoles = _from_first(tree, areole)
     return PlaceHistory(
         place=place,
         step=frame.step,
-        segment=segment,
+        segment=int(network.segment_ids[row]),
         distance=distance,
+        grown=int(network.vein_births[row]),
         node=node,
-        node_birth=int(births[node]),
         vein=vein,
-        vein_birth=int(births[vein]),
+        vein_birth=int(network.births[vein]),
         branching_order=int(veins.orders[node]),
         source=source,
         source_birth=NULL if source == NULL else int(fates["birth"][source]),
@@ -139,11 +142,8 @@ def history_at(
     )
 
 
-def _nearest(frame: Frame, place: Floats) -> tuple[int, float, int]:
-    """Give the nearest living segment, how far it is, and its younger end; -1 without any."""
-    network = frame.network
-    if not network.n_segments:
-        return NULL, np.inf, NULL
+def _nearest(network: VeinNetwork, place: Floats) -> tuple[int, float]:
+    """Give the row of the segment nearest to a place, and how far it is."""
     starts, stops = (network.positions[network.segments[:, end]] for end in (0, 1))
     along = stops - starts
     length = (along**2).sum(axis=1)
@@ -151,7 +151,7 @@ def _nearest(frame: Frame, place: Floats) -> tuple[int, float, int]:
     feet = starts + np.clip(share, 0.0, 1.0)[:, None] * along
     distances = np.sqrt(((feet - place) ** 2).sum(axis=1))
     row = int(np.argmin(distances))
-    return int(network.segment_ids[row]), float(distances[row]), int(network.segments[row].max())
+    return row, float(distances[row])
 
 
 def _holding(tree: Genealogy, positions: Points, place: tuple[float, float]) -> int:

@@ -34,9 +34,9 @@ class Fate(IntEnum):
     TAGGED = 1
     """A vein had, and others were awaited."""
     REACHED = 2
-    """Removed; its veins did not meet, and none of them ends there for good."""
+    """Removed; its veins did not meet, and none of them ended there blindly."""
     ENDED = 3
-    """Removed; a vein ends blindly at it, or on its way from it."""
+    """Removed; a vein ended blindly because of it, though a later one may have grown on."""
     JOINED = 4
     """Veins joined where it was, or is: a primordium of a stem is never removed."""
 

@@ -35,10 +35,16 @@ def read_story(timeline: Timeline) -> Story:
     Raises
     ------
     VascError
-        If no source was ever placed: there is nothing to hold against a sequence.
+        If no source was ever placed, or the run is one on a tissue: there is nothing to hold
+        against a sequence.
     TimelineError
         If the file cannot be read.
     """
+    if timeline.tissue is not None:
+        raise VascError(
+            f"{timeline.path}: is a run on a tissue, which does not grow and whose sources are"
+            " placed in rounds; the sequence of a growing leaf cannot be decided"
+        )
     if timeline.n_rows("sources") == 0:
         raise VascError(f"{timeline.path}: no source was placed, so that there is no sequence")
     reading = _Reading(timeline)
