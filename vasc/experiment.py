@@ -76,7 +76,8 @@ def run(
     Raises
     ------
     OutputError
-        If the file cannot be written, or the disk is not expected to hold it.
+        If the file cannot be written, is one that the config refers to, or the disk is not
+        expected to hold it.
     ConfigError
         If the blade or a file the config refers to cannot be used, or memory is not
         expected to hold the run.
@@ -85,6 +86,7 @@ def run(
     """
     started = time.perf_counter()
     parameters = experiment.parameters
+    experiment.refuse_own_file(Path(output))
     model = experiment.model()
     size = foreseen(parameters, model)
     if on_size is not None:

@@ -24,9 +24,10 @@ def animate(
 ) -> None:
     """Make a film of a run, as mp4 or gif."""
     from vasc import render as drawing
-    from vasc.cli.run import check_picture
+    from vasc.cli.run import check_not_needed, check_picture
 
     check_picture(output, force=force)
+    check_not_needed(path, output)
     is_shown = not quiet and sys.stderr.isatty()
 
     def progress(count: int, total: int) -> None:

@@ -59,7 +59,7 @@ def export(
     Lengths are in D, or in the unit that the config gives; of a tissue, in widths of a cell.
     """
     from vasc import export as exports
-    from vasc.cli.run import check_folder, check_picture
+    from vasc.cli.run import check_folder, check_not_needed, check_picture
     from vasc.crates import export_crate, is_crate
     from vasc.errors import OutputError
 
@@ -77,11 +77,13 @@ def export(
         raise OutputError(f"{output}: --every and --spanning-tree are not for a tissue")
     if is_tissue:
         check_picture(output, force=force)
+        check_not_needed(path, output)
         width = exports.CELL if cell is None else cell
         file = exports.export_tissue(path, output, step, cell=width)
         warn_without_sources(file)
     else:
         check_folder(output)
+        check_not_needed(path, output)
         file = exports.export(
             path, output, step, force=force, every=every, spanning_tree=spanning_tree
         )

@@ -47,9 +47,10 @@ def render(
     """Draw a leaf, stem or tissue at its last step or another one, as png, svg or pdf."""
     from vasc import render as drawing
     from vasc.cli.printing import print_json
-    from vasc.cli.run import check_picture
+    from vasc.cli.run import check_not_needed, check_picture
 
     check_picture(output, force=force)
+    check_not_needed(path, output)
     forms = {
         "--growth": growth,
         "--unroll": unroll,

@@ -68,6 +68,9 @@ def run(
     check_output(output, force=force)
     figure = None if no_figure else figure or output.with_suffix(".png")
     check_outputs(config, output, figure, force=force)
+    experiment.refuse_own_file(output, "; choose another name with --output")
+    if figure is not None:
+        experiment.refuse_own_file(figure, "; choose another name with --figure, or --no-figure")
 
     from vasc import experiment as experiments
 
@@ -155,6 +158,24 @@ def check_picture(figure: Path, *, force: bool) -> None:
         raise OutputError(f"{figure}: is a folder")
     if figure.exists() and not force:
         raise OutputError(f"{figure}: exists already; use --force to replace it")
+
+
+def check_not_needed(run: Path, output: Path) -> None:
+    """Refuse to write over a file that the config of a recorded run refers to.
+
+    Raises
+    ------
+    OutputError
+        If it is one of these, by its name or its content.
+    TimelineError
+        If the run is no timeline.
+    """
+    from vasc.config.attachments import refuse_recorded
+    from vasc.timeline import Timeline
+
+    if output.is_file():
+        with Timeline(run) as timeline:
+            refuse_recorded(timeline.config, output, "; choose another name with --output")
 
 
 def check_folder(path: Path) -> None:

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from vasc.cli.options import AsJson, Force
-from vasc.cli.run import check_picture
+from vasc.cli.run import check_not_needed, check_picture
 
 EXAMPLES = (
     "vasc validate growth",
@@ -80,6 +80,7 @@ def validate(
         raise ConfigError(f"--n {n}: only the suite canalization draws scenarios")
     if output is not None:
         _check_output(output, suite, force=force)
+        _spare(files or [], output)
     suites = [run() for name, run in _suites(n, files or []).items() if suite in (None, name)]
     if output is not None:
         _write(output, suites)
@@ -119,6 +120,18 @@ def _check_output(output: Path, suite: str | None, *, force: bool) -> None:
     # a minute of simulations, and then no picture, is what this saves
     of_tables = (".json",) if suite is None else ()
     checked_output(output, (*PICTURE_SUFFIXES, *of_tables))
+
+
+def _spare(files: list[Path], output: Path) -> None:
+    """Refuse to draw over what is judged, or a file that the config of a run refers to."""
+    from vasc.errors import OutputError
+    from vasc.networks_in import is_network_file
+
+    for file in files:
+        if file.exists() and output.exists() and output.samefile(file):
+            raise OutputError(f"{output}: is one of the leaves, and is never replaced")
+        if not is_network_file(file):
+            check_not_needed(file, output)
 
 
 def _write(output: Path, suites: list[dict[str, Any]]) -> None:

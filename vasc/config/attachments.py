@@ -10,7 +10,7 @@ from typing import Any
 
 from vasc.config.values import Path as KeyPath
 from vasc.config.values import assignment
-from vasc.errors import ConfigError, TimelineError
+from vasc.errors import ConfigError, OutputError, TimelineError
 from vasc.limits import FILE_BYTES
 
 FILE_KEY = "file"
@@ -70,6 +70,72 @@ def packed(tables: dict[str, Any], folder: Path) -> dict[str, str]:
             reason = error.strerror or error
             raise ConfigError(f"{assignment(key, name)}: cannot be read: {reason}") from error
     return files
+
+
+def refuse_referenced(tables: Any, folder: Path, output: Path, hint: str = "") -> None:
+    """Refuse to write over a file that a config refers to.
+
+    Parameters
+    ----------
+    tables : dict
+        The config.
+    folder : Path
+        What the names of its files are relative to.
+    output : Path
+        Where something is to be written.
+    hint : str
+        What else can be done.
+
+    Raises
+    ------
+    OutputError
+        If it is one of these files.
+    """
+    for key, name in referenced_files(tables).items():
+        path = folder / name
+        if path.exists() and output.exists() and path.samefile(output):
+            raise _never_replaced(output, assignment(key, name), hint)
+
+
+def refuse_recorded(record: Any, output: Path, hint: str = "") -> None:
+    """Refuse to write over a file that a recorded config refers to, wherever its folder is.
+
+    What has the name of such a file, or is its copy byte for byte, is taken for it.
+
+    Parameters
+    ----------
+    record : dict
+        The config that a timeline holds, with the packed files under ``files``.
+    output : Path
+        Where something is to be written.
+    hint : str
+        What else can be done.
+
+    Raises
+    ------
+    OutputError
+        If it is one of these files.
+    """
+    if not output.is_file():
+        return
+    files = record.get("files") if isinstance(record, dict) else None
+    for key, name in referenced_files(record).items():
+        content = files.get(name) if isinstance(files, dict) else None
+        if Path(name).name == output.name or _is_copy(output, content):
+            raise _never_replaced(output, assignment(key, name), hint)
+
+
+def _is_copy(path: Path, content: Any) -> bool:
+    """Tell whether a file holds what was packed."""
+    # four letters for three bytes: most files are told apart by their size
+    if not isinstance(content, str) or -(-path.stat().st_size // 3) * 4 != len(content):
+        return False
+    return base64.b64encode(path.read_bytes()).decode("ascii") == content
+
+
+def _never_replaced(output: Path, key: str, hint: str) -> OutputError:
+    """Say that a file is needed by a config."""
+    return OutputError(f"{output}: is the file of {key}, and is never replaced{hint}")
 
 
 @contextmanager

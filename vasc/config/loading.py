@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from vasc.config.attachments import missing_files, packed, unpacked
+from vasc.config.attachments import missing_files, packed, refuse_referenced, unpacked
 from vasc.config.bundled import find_config
 from vasc.config.limits import blade_problems, size_problems
 from vasc.config.overrides import Override, overridden
@@ -65,6 +65,16 @@ class Experiment:
     def record(self) -> dict[str, Any]:
         """What a timeline keeps, so that the run can be repeated from it alone."""
         return self.tables | ({FILES_KEY: self.files} if self.files else {})
+
+    def refuse_own_file(self, output: Path, hint: str = "; choose another name") -> None:
+        """Refuse to write over a file that the config refers to.
+
+        Raises
+        ------
+        OutputError
+            If ``output`` is one of them; the message ends in the hint.
+        """
+        refuse_referenced(self.tables, self.folder, output, hint)
 
     def model(self) -> "Model":
         """Give the model, ready to run.
