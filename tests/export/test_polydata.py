@@ -59,6 +59,7 @@ def test_points_and_lines_are_nodes_and_segments(timeline, tmp_path):
         ("width", found.widths),
         ("order", found.orders),
         ("branching_order", found.branching_orders),
+        ("gravelius_order", found.gravelius_orders),
         ("kind", found.kinds),
     ):
         np.testing.assert_array_equal(parts["CellData"][name].ravel(), values)

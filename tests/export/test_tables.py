@@ -59,7 +59,7 @@ def test_nodes_and_segments_have_their_place_and_width_at_the_step(timeline, tmp
     # pandas before 3 reads numbers to the last digit but one
     np.testing.assert_allclose(nodes[list(found.axes)], found.positions, rtol=1e-14)
     np.testing.assert_allclose(nodes["radius"], found.radii, rtol=1e-14)
-    for name in ("order", "branching_order", "width", "length"):
+    for name in ("order", "branching_order", "gravelius_order", "width", "length"):
         np.testing.assert_allclose(segments[name], getattr(found, f"{name}s"), rtol=1e-14)
     # what refinement has replaced is there, without a place
     replaced = tables["nodes"].drop(found.ids)
@@ -137,3 +137,23 @@ def test_what_is_in_every_cell_is_described(timeline, tmp_path):
         columns = table["tableSchema"]["columns"]
         codes = {column["name"] for column in columns if "datatype" in column}
         assert {"nodes.csv": {"origin"}, "segments.csv": {"kind"}}.get(table["url"], codes) == codes
+
+
+@pytest.mark.parametrize("kind", ["closed", "open", "areoles"])
+def test_the_branching_order_is_that_of_lineage(runs, kind, tmp_path):
+    segments = read(export(getattr(runs, kind), tmp_path / "a.csv"))["segments"]
+    with Timeline(getattr(runs, kind)) as timeline:
+        births = timeline.lineage.births()
+    known = dict(zip(births["vein"].tolist(), births["branching_order"].tolist(), strict=True))
+    # a vein begins with the segment to its first node, where refinement has left it whole
+    is_whole = segments["branching_order"].notna() & (segments["kind"] == "extension")
+    found = dict(zip(segments["nodes_distal"], segments["branching_order"], strict=True))
+    compared = [node for node in segments["nodes_distal"][is_whole] if node in known]
+    assert len(compared) > 3
+    assert [found[node] for node in compared] == [known[node] for node in compared]
+
+
+def test_orders_by_parentage_and_by_what_is_carried_are_two(runs):
+    with Timeline(runs.closed) as timeline:
+        found = specimen(timeline)
+    assert (found.branching_orders != found.gravelius_orders).any()

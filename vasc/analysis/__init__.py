@@ -1,7 +1,7 @@
 """Network in, numbers out: widths, topology, areoles, densities."""
 
 from vasc.analysis.areoles import Areoles, find_areoles
-from vasc.analysis.branches import branch_orders
+from vasc.analysis.branches import gravelius_orders
 from vasc.analysis.run_widths import run_widths
 from vasc.analysis.sections import Sections, find_sections
 from vasc.analysis.segment_orders import run_node_orders, segment_orders
@@ -13,9 +13,9 @@ __all__ = [
     "Areoles",
     "Sections",
     "WidthParameters",
-    "branch_orders",
     "find_areoles",
     "find_sections",
+    "gravelius_orders",
     "murray_radii",
     "network_statistics",
     "run_node_orders",

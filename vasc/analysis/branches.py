@@ -1,4 +1,4 @@
-"""Orders of branching: how often a vein has left a thicker one on its way from the base."""
+"""Gravelius orders: how often a vein has left one that carries more on its way from the base."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,16 +10,17 @@ from vasc.arrays import Ids
 from vasc.network import SegmentKind, VeinNetwork
 
 
-def branch_orders(
+def gravelius_orders(
     network: VeinNetwork, *, counted: Pipes | None = None, directions: Descent | None = None
 ) -> Ids:
-    """Give every segment its order of branching, 1 for the veins that leave a seed.
+    """Give every segment its Gravelius order, 1 for the veins that leave a seed.
 
     At each node the segment that carries most pipes (of equals, the oldest)
-    continues the vein; every other one begins a vein of the next order. This is
-    the centrifugal count of branching, made from the drawing alone. It is not the
-    order of leaf architecture, which also weighs widths at the origin and courses: for that see
-    :func:`vasc.analysis.segment_orders`.
+    continues the vein; every other one begins a vein of the next order, as streams
+    are counted from the mouth of a river (Gravelius 1914). It is made from the drawing
+    alone, and is neither the order of leaf architecture, which also weighs widths at the
+    origin and courses (:func:`vasc.analysis.segment_orders`), nor the branching order by
+    parentage (:attr:`vasc.timeline.veins.Veins.orders`).
 
     Parameters
     ----------

@@ -80,6 +80,7 @@ def edge_columns(specimen: Specimen) -> dict[str, list[Any]]:
         "kind": [KINDS[code] for code in specimen.kinds.tolist()],
         "order": specimen.orders.tolist(),
         "branching_order": specimen.branching_orders.tolist(),
+        "gravelius_order": specimen.gravelius_orders.tolist(),
         "width": specimen.widths.tolist(),
         "length": specimen.lengths.tolist(),
         "source": specimen.segment_causes.tolist(),

@@ -49,6 +49,7 @@ def vtp(specimen: Specimen) -> bytes:
         "kind": specimen.kinds,
         "order": specimen.orders,
         "branching_order": specimen.branching_orders,
+        "gravelius_order": specimen.gravelius_orders,
         "width": specimen.widths,
         "length": specimen.lengths,
         "source": specimen.segment_causes,

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from vasc.analysis.ancestry import descent, segment_causes
-from vasc.analysis.branches import branch_orders
+from vasc.analysis.branches import gravelius_orders
 from vasc.analysis.elongation import Elongation, stretched_pipes
 from vasc.analysis.segment_orders import segment_orders
 from vasc.analysis.tubes import strand_radii
@@ -15,7 +15,7 @@ from vasc.analysis.units import LengthUnit
 from vasc.analysis.widths import WidthParameters, radii, segment_radii
 from vasc.arrays import Codes, Floats, Ids, Points, Steps
 from vasc.export.words import plain
-from vasc.network import Origin, SegmentKind
+from vasc.network import Origin, SegmentKind, VeinNetwork
 from vasc.timeline import Frame, Timeline
 from vasc.timeline.stems import is_stem
 
@@ -63,8 +63,8 @@ class Specimen:
         Codes, whose words are ``KINDS``.
     orders : ndarray of shape (m,), int32
         Vein orders, from 1.
-    branching_orders : ndarray of shape (m,), int32
-        Orders of branching, from 1.
+    branching_orders, gravelius_orders : ndarray of shape (m,), int32
+        Branching orders by parentage, as in lineage, and by what segments carry; from 1.
     widths : ndarray of shape (m,), float64
         Widths of the segments.
     rings : tuple of ndarray of shape (k, 2), float64
@@ -94,6 +94,7 @@ class Specimen:
     kinds: Codes
     orders: Ids
     branching_orders: Ids
+    gravelius_orders: Ids
     widths: Floats
     rings: tuple[Points, ...]
     blade_length: float | None
@@ -230,8 +231,18 @@ def _cut(timeline: Timeline, frame: Frame, widths: Floats) -> Specimen:
         segment_causes=segment_causes(network, directions),
         kinds=network.segment_kinds,
         orders=segment_orders(network, widths),
-        branching_orders=branch_orders(network, directions=directions),
+        branching_orders=_branching_orders(timeline, network),
+        gravelius_orders=gravelius_orders(network, directions=directions),
         widths=np.asarray(widths * unit.per_segment),
         rings=tuple(ring * unit.per_segment for ring in rings),
         blade_length=float(frame.blade.length * unit.per_segment) if rings else None,
     )
+
+
+def _branching_orders(timeline: Timeline, network: VeinNetwork) -> Ids:
+    """Give the branching order of the vein in which each segment lies, shape (m,)."""
+    # a segment belongs to the newer of its nodes; a join to the vein it springs from
+    is_join = network.segment_kinds == SegmentKind.JOIN
+    nodes = np.where(is_join, network.segments[:, 0], network.segments.max(axis=1, initial=0))
+    found: Ids = timeline.lineage.veins.orders[nodes]
+    return found
