@@ -67,6 +67,19 @@ def test_swc_holds_every_node_and_segment(runs, tmp_path):
     assert np.linalg.norm(steps, axis=1).sum() == pytest.approx(found.lengths.sum())
 
 
+def test_swc_says_what_its_numbers_are(runs, tmp_path):
+    with Timeline(runs.open) as timeline:
+        found = specimen(timeline)
+    file = export(runs.open, tmp_path / "a.swc")
+    assert "# n is the id of the node + 1, as SWC counts from 1\n" in file.read_text()
+    rows = np.loadtxt(file)
+    at = {node: place.tolist() for node, place in zip(found.ids, found.positions, strict=True)}
+    assert [at[int(number) - 1] for number in rows[:, 0]] == rows[:, 2:4].tolist()
+    refined = export(runs.areoles, tmp_path / "b.swc", spanning_tree=True)
+    assert "# n counts the points from 1 and is no id" in refined.read_text()
+    assert "as SWC counts" not in refined.read_text()
+
+
 def test_mtg_holds_every_node_and_segment(runs, tmp_path):
     with Timeline(runs.open) as timeline:
         found = specimen(timeline)

@@ -84,7 +84,8 @@ def swc(specimen: Specimen, *, spanning: bool = False) -> bytes:
     Returns
     -------
     bytes
-        A line a node: number from 1, type 0, x, y, z (0 of a leaf), radius, number of the parent
+        A line a node: number from 1 (the id of the node + 1 where refinement added none, as the
+        head says), type 0, x, y, z (0 of a leaf), radius, number of the parent
         or -1. A parent comes before its children.
 
     Raises
@@ -108,10 +109,19 @@ def swc(specimen: Specimen, *, spanning: bool = False) -> bytes:
         [
             *comment(specimen.heading),
             *comment(_left_out(spanning)),
+            *comment(_numbered(specimen, tree)),
             *comment(["n type x y z radius parent"]),
             *lines,
         ]
     )
+
+
+def _numbered(specimen: Specimen, tree: Tree) -> list[str]:
+    """Say how the numbers of points follow from the ids of nodes."""
+    ids = specimen.ids[tree.rows]
+    if np.array_equal(ids, np.arange(len(ids))):
+        return ["n is the id of the node + 1, as SWC counts from 1"]
+    return ["n counts the points from 1 and is no id, as refinement has added nodes; MTG has ids"]
 
 
 def mtg(specimen: Specimen, *, spanning: bool = False) -> bytes:
