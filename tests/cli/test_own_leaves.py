@@ -110,3 +110,21 @@ def test_what_cannot_be_judged_is_told_in_one_line(recorded, tmp_path, capsys):
         said = [line for line in capsys.readouterr().err.splitlines() if "running" not in line]
         assert len(said) == 1
         assert part in said[0]
+
+
+def test_what_a_leaf_has_no_number_for_is_open(recorded, tmp_path, capsys):
+    """The small leaf has no minor veins in the end, and few junctions."""
+    leaf, picture = str(recorded / "leaf.h5"), tmp_path / "leaves.png"
+    assert main(["validate", "leaf", leaf, "-o", str(picture)]) == 1
+    said = capsys.readouterr().out
+    assert picture.stat().st_size > 10_000
+    row = next(line for line in said.splitlines() if line.startswith("15") and "minor" in line)
+    assert row.split()[-6:] == ["leaf", "open", "-", "0", "to", "0.2"]
+    checks = [one for one in validate_leaves([Path(leaf)]).checks if one.leaf == "leaf"]
+    verdicts = [one.passed for one in checks]
+    n_failed, n_open = verdicts.count(False), verdicts.count(None)
+    assert n_open
+    assert f"\nleaf: {verdicts.count(True)} of {len(checks)} checks pass, " in said
+    assert f"{n_failed} fail, {n_open} cannot be decided\n" in said
+    # the control is counted by itself
+    assert "\nDalbergia, the control: 13 of 13 checks pass\n" in said

@@ -1,5 +1,6 @@
 """Pictures of the checks of leaves."""
 
+import numpy as np
 import pytest
 from matplotlib.colors import to_hex
 from reference.leaf_samples import small_report
@@ -93,3 +94,43 @@ def test_more_leaves_than_colors_look_different(suite):
     names = [f"leaf {k}" for k in range(9)]
     curves = {"degrees": dict.fromkeys([*names, "real"]), "real": ["real"]}
     assert len(set(looks({"curves": curves}).values())) == 10
+
+
+def drawn_colors(figure):
+    """Give the colours of what is drawn in the panels, of lines and of surfaces."""
+    return {
+        to_hex(one.get_facecolor())
+        for ax in figure.axes
+        for one in ax.patches
+        if one.get_fill() and one is not ax.patch
+    }
+
+
+def test_the_key_of_murrays_law_names_its_colour(suite):
+    figure = draw_leaf_check(suite, 14)
+    (key,) = figure.legends
+    named = {to_hex(handle.get_color()) for handle in key.legend_handles}
+    assert drawn_colors(figure) == named
+    assert [text.get_text() for text in key.get_texts()] == ["honeycomb (open venation)"]
+
+
+def test_densities_without_minor_veins_in_the_end_are_drawn(suite):
+    one = suite["curves"]["densities"]["honeycomb"]
+    none = suite["curves"] | {"densities": {"honeycomb": one | {"minor": [1.0] * 7 + [0.0]}}}
+    (ax,) = draw_leaf_check(suite | {"curves": none}, 15).axes
+    major, minor = ax.lines[:2]
+    assert np.isfinite(major.get_ydata()).all()
+    assert np.isnan(minor.get_ydata()).all()
+
+
+def test_an_open_check_is_neither_framed_nor_counted_as_failed(suite):
+    checks = [
+        one | {"value": None, "pass": None} if one["leaf"] == "honeycomb" else one
+        for one in suite["checks"]
+    ]
+    figure = draw_leaf_check(suite | {"checks": checks}, 11)
+    (ax,) = figure.axes
+    assert ax.get_title(loc="left") == "check 11, open for honeycomb"
+    assert "honeycomb: none" in [text.get_text() for text in ax.get_yticklabels()]
+    sheet = draw_leaf_checks(suite | {"checks": checks})
+    assert "cannot be decided" in sheet.get_suptitle()

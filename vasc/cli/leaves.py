@@ -1,6 +1,11 @@
 """The checks of leaves, written for people."""
 
+from collections.abc import Sequence
+
 import typer
+
+WORDS = {True: "pass", False: "FAIL", None: "open"}
+"""What a verdict is called in the table; open is what a leaf has no number for."""
 
 
 def print_leaves(suite: dict) -> None:
@@ -12,7 +17,7 @@ def print_leaves(suite: dict) -> None:
             check["check"],
             check["what"],
             check["leaf"],
-            "pass" if check["pass"] else "FAIL",
+            WORDS[check["pass"]],
             "-" if check["value"] is None else f"{check['value']:.4g}",
             _asked(check["low"], check["high"]),
         )
@@ -30,20 +35,38 @@ def print_leaves(suite: dict) -> None:
         for one in suite["reported"]
     ]
     print_table(("what", "value", "in the literature", "source"), told)
-    failed = [check for check in suite["checks"] if not check["pass"]]
-    n_checks = len(suite["checks"])
-    typer.echo(f"\n{n_checks - len(failed)} of {n_checks} checks pass{'; not' if failed else ''}")
-    if failed:
-        reasons = [(one["name"], _against(one), one["source"]) for one in failed]
+    typer.echo()
+    for line in counted(suite["checks"], suite["curves"]["real"]):
+        typer.echo(line)
+    missed = [check for check in suite["checks"] if not check["pass"]]
+    if missed:
+        typer.echo("\nnot passed")
+        reasons = [(one["name"], _against(one), one["source"]) for one in missed]
         print_table(("what", "why", "source of the range"), reasons)
     for name in suite["control_failures"]:
         typer.echo(f"the real leaf fails {name}: that check is wrong, not the leaf")
 
 
+def counted(checks: Sequence[dict], controls: Sequence[str]) -> list[str]:
+    """Count the checks of each leaf, the controls last."""
+    leaves = dict.fromkeys(check["leaf"] for check in checks)
+    lines = []
+    for leaf in sorted(leaves, key=lambda name: name in controls):
+        verdicts = [check["pass"] for check in checks if check["leaf"] == leaf]
+        control = ", the control" if leaf in controls else ""
+        line = f"{leaf}{control}: {verdicts.count(True)} of {len(verdicts)} checks pass"
+        if n_failed := verdicts.count(False):
+            line += f", {n_failed} {'fails' if n_failed == 1 else 'fail'}"
+        if n_open := verdicts.count(None):
+            line += f", {n_open} cannot be decided"
+        lines.append(line)
+    return lines
+
+
 def _against(check: dict) -> str:
     """Say how a value misses its range."""
     if check["value"] is None:
-        return "the leaf has no such number"
+        return "open: the leaf has no such number"
     if check["value"] < check["low"]:
         return f"{check['value']:.4g} is below {check['low']:.4g}"
     return f"{check['value']:.4g} is above {check['high']:.4g}"

@@ -18,7 +18,9 @@ Suite = Mapping[str, Any]
 
 REAL = "#6f6f6f"
 COLORS = ("#3f7d32", "#2166ac", "#d98200", "#8e44ad")
-"""Of simulated leaves, in their order."""
+"""Of simulated leaves with areoles, in their order."""
+TREE = "#795548"
+"""Of open venation, whose branchings are counted together."""
 RANGE = "#dde9d2"
 """Behind the values that a check allows."""
 FAIL = "#b3261e"
@@ -49,6 +51,8 @@ def tidy(ax: Axes, *, x: str = "", y: str = "") -> None:
 def mark(ax: Axes, number: int, checks: Sequence[Mapping[str, Any]]) -> None:
     """Name the check above a panel; one that fails is red, framed, and says by what.
 
+    One that is open, since a leaf has no such number, names the leaf.
+
     Parameters
     ----------
     ax : Axes
@@ -58,9 +62,11 @@ def mark(ax: Axes, number: int, checks: Sequence[Mapping[str, Any]]) -> None:
     checks : sequence of mapping
         What the panel shows of it, of all leaves.
     """
-    failed = [one for one in checks if not one["pass"]]
+    failed = [one for one in checks if one["pass"] is False]
     if not failed:
-        ax.set_title(f"check {number}", fontsize=LABEL_SIZE, color=INK, loc="left")
+        without = dict.fromkeys(one["leaf"] for one in checks if one["pass"] is None)
+        is_open = f", open for {', '.join(without)}" if without else ""
+        ax.set_title(f"check {number}{is_open}", fontsize=LABEL_SIZE, color=INK, loc="left")
         return
     is_one = len({one["what"] for one in checks}) == 1
     said = [
@@ -142,6 +148,9 @@ def draw_values(ax: Axes, suite: Suite, number: int, what: str, species: str | N
     ax.axvspan(checks[0]["low"], checks[0]["high"], color=RANGE, linewidth=0.0)
     rows = []
     for row, check in enumerate(checks):
+        rows.append(check["leaf"] if check["value"] is not None else f"{check['leaf']}: none")
+        if check["value"] is None:
+            continue
         color, marker = found[check["leaf"]]
         edge = color if check["pass"] else FAIL
         ax.plot(check["value"], -row, marker, color=color, markeredgecolor=edge, markersize=6.0,
@@ -151,7 +160,6 @@ def draw_values(ax: Axes, suite: Suite, number: int, what: str, species: str | N
             ax.text(
                 *place, f"{check['value']:.3g} fails", color=FAIL, ha="center", fontsize=TEXT_SIZE
             )
-        rows.append(check["leaf"])
     if species is not None:
         low, left, middle, right, high = suite["curves"]["species"][species]
         row = -len(checks)
@@ -214,7 +222,7 @@ def draw_ends(ax: Axes, suite: Suite) -> None:
         ax.barh(-row, value, height=0.6, color=color)
         words = f"{value:.2f}"
         if name in asked:
-            verdict = "" if asked[name]["pass"] else " FAILS"
+            verdict = " FAILS" if asked[name]["pass"] is False else ""
             words += f" ({asked[name]['what'].rsplit(', ', 1)[-1]}{verdict})"
         ax.text(value + 0.02, -row, words, va="center", fontsize=TEXT_SIZE)
     ax.set_yticks([-row for row in range(len(found))], list(found))
@@ -229,7 +237,7 @@ def draw_exponents(ax: Axes, suite: Suite) -> None:
     exponents = np.array(suite["exponents"])
     off = np.maximum(np.abs(exponents - np.median(exponents).round(6)), 1e-16)
     edges = np.arange(-16.5, -4.5)
-    ax.stairs(np.histogram(np.log10(off), edges)[0] / len(off), edges, fill=True, color=COLORS[3])
+    ax.stairs(np.histogram(np.log10(off), edges)[0] / len(off), edges, fill=True, color=TREE)
     limit = np.log10(_asked(suite, 14)["high"])
     ax.axvline(limit, color=INK, linewidth=0.8, linestyle=":")
     ax.text(limit - 0.15, 0.0, "most allowed ", rotation=90, ha="right", va="bottom",
@@ -247,7 +255,8 @@ def draw_densities(ax: Axes, suite: Suite) -> None:
         areas = [area / one["area"][-1] for area in one["area"]]
         for key, line in (("major", "--"), ("minor", "-")):
             last = one[key][-1]
-            values = [value / last if value else float("nan") for value in one[key]]
+            # a leaf without such veins at the end has no curve
+            values = [value / last if value and last else float("nan") for value in one[key]]
             ax.plot(areas, values, line, color=color, marker=marker, markersize=3.5, linewidth=1.2)
     guide = [0.5, 1.0]
     ax.plot(guide, [area**-0.5 for area in guide], color=INK, linewidth=2.5, alpha=0.35)

@@ -36,7 +36,7 @@ class LeafCheck:
     asked : LeafRange
         What is asked.
     value : float
-        The number; nan where the leaf has none, which fails.
+        The number; nan where the leaf has none, and the check is open.
     """
 
     leaf: str
@@ -44,8 +44,10 @@ class LeafCheck:
     value: float
 
     @property
-    def passed(self) -> bool:
-        """Whether the number is in the range, ends included."""
+    def passed(self) -> bool | None:
+        """Whether the number is in the range, ends included; None where there is none."""
+        if math.isnan(self.value):
+            return None
         return bool(self.asked.low <= self.value <= self.asked.high)
 
     def as_json(self) -> Table:

@@ -37,14 +37,22 @@ class Densities:
 
     @property
     def minor_change(self) -> float:
-        """Largest change of the minor density over the last doubling, of that at its end."""
+        """Largest change of the minor density over the last doubling, of that at its end.
+
+        nan if there are no minor veins at its end.
+        """
         last = self.minor[-N_MOMENTS:]
         return float(np.abs(last / last[-1] - 1.0).max()) if last[-1] > 0.0 else float("nan")
 
     @property
     def major_exponent(self) -> float:
-        """Slope of log(major density) against log(area) over the last doubling."""
+        """Slope of log(major density) against log(area) over the last doubling.
+
+        nan if there is a moment without major veins.
+        """
         last = slice(-N_MOMENTS, None)
+        if not (self.major[last] > 0.0).all():
+            return float("nan")
         return float(np.polyfit(np.log(self.areas[last]), np.log(self.major[last]), 1)[0])
 
 

@@ -63,6 +63,12 @@ class LeafReport:
     exponents: Floats
     densities: dict[str, Densities]
 
+    @property
+    def trees(self) -> list[str]:
+        """Names of the leaves of open venation."""
+        found = [check.leaf for check in self.checks if check.asked.key == "murray"]
+        return list(dict.fromkeys(found))
+
     def as_suite(self) -> dict[str, Any]:
         """Give the suite as ``vasc validate --json`` writes it.
 
@@ -70,7 +76,8 @@ class LeafReport:
         -------
         dict
             ``name``, ``checks``, each with its ``name``, ``value``, ``low``, ``high``,
-            ``source``, ``basis`` of the range and ``pass``; ``reported``, numbers that decide
+            ``source``, ``basis`` of the range and ``pass``, None where the leaf has no such
+            number, so that it cannot be decided; ``reported``, numbers that decide
             nothing; ``control_failures``, checks that the real leaf fails: in these the
             check is wrong, not the leaf; and ``distributions``, ``curves`` and ``exponents``,
             which pictures are drawn from.
@@ -82,10 +89,12 @@ class LeafReport:
             "checks": checks,
             "reported": [row for sample in self.samples for row in reported(sample)],
             "control_failures": [
-                check["name"] for check in checks if check["leaf"] in real and not check["pass"]
+                check["name"]
+                for check in checks
+                if check["leaf"] in real and check["pass"] is False
             ],
             "distributions": distributions(self.samples),
-            "curves": curves(self.samples, self.densities),
+            "curves": curves(self.samples, self.densities) | {"trees": self.trees},
             "exponents": self.exponents.tolist(),
         }
 

@@ -97,7 +97,7 @@ def compare_variants(
                 "variant": variant.name,
                 "areoles": sample.numbers["areoles"],
                 "values": {check.asked.key: check.value for check in checks},
-                "fails": [check.asked.key for check in checks if not check.passed],
+                "fails": [check.asked.key for check in checks if check.passed is False],
             }
         )
     return rows
