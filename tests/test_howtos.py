@@ -112,6 +112,14 @@ def test_keys_of_an_installed_hypothesis_are_checked(runs):
     assert "competence = 0: must be a whole number of at least 1, in steps" in refused.stderr
 
 
+@pytest.mark.parametrize("path", [["parts"], []], ids=["installed", "not installed"])
+def test_leaves_of_the_model_are_judged_as_the_trees_they_are(runs, path):
+    judge = (sys.executable, "-m", "vasc", "validate", "leaf", "young.h5")
+    done = run(runs, *judge, path=[runs / part for part in path])
+    assert done.returncode == 0, done.stderr
+    assert "\nyoung: 2 of 2 checks pass\n" in done.stdout
+
+
 @pytest.mark.slow
 def test_the_sweep_of_the_page_answers_as_it_says(runs):
     swept = vasc(runs, "sweep", "young-sweep.toml", "-o", "competence")

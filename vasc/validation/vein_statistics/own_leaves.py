@@ -6,7 +6,9 @@ from pathlib import Path
 import numpy as np
 
 from vasc.arrays import Floats
+from vasc.config.schema import models
 from vasc.errors import VascError
+from vasc.models import MODELS, OpenVenation
 from vasc.networks_in import is_network_file, read_network
 from vasc.timeline import Timeline
 from vasc.validation.vein_statistics.branchings import branching_exponents
@@ -26,7 +28,7 @@ from vasc.validation.vein_statistics.samples import (
 from vasc.validation.vein_statistics.suite import LeafReport, Progress
 
 OPEN = "open"
-"""The kind of runs whose venation is a tree."""
+"""What runs are called whose venation is a tree."""
 GIVEN = "given"
 """Networks of the user: real, but no control of the checks."""
 
@@ -35,7 +37,8 @@ def validate_leaves(paths: Sequence[Path], progress: Progress = lambda name: Non
     """Hold leaves of the user against the checks, beside the real leaf that comes with vasc.
 
     A run is judged at its last step: by checks 6 to 13, and by check 15 if its blade has
-    doubled its area; one of open venation by checks 11 and 14. A real network is judged by
+    doubled its area; one of open venation, or of a model of another package in which no
+    veins ever joined, by checks 11 and 14. A real network is judged by
     checks 6 to 13, without those of widths where it has none. Check 17 is of the measuring,
     and is left out.
 
@@ -105,7 +108,17 @@ def _kind_of(path: Path) -> str:
             raise VascError(f"{path}: is a run on a tissue; its veins are walls of cells")
         if not timeline.n_frames:
             raise VascError(f"{path}: holds no step yet")
-        return str(timeline.config["kind"])
+        kind = str(timeline.config["kind"])
+        return OPEN if _is_open(kind, timeline) else kind
+
+
+def _is_open(kind: str, timeline: Timeline) -> bool:
+    """Tell whether a run is of open venation, by its model; else by what it recorded."""
+    model = models().get(kind)
+    if model is not None and issubclass(model, OpenVenation):
+        return True
+    # of a model that is not ours, or not installed, only the veins tell
+    return kind not in MODELS and not timeline.events.counts().get("vein_joined")
 
 
 def _exponents(sample: LeafSample, path: Path) -> tuple[Floats, float]:
