@@ -112,6 +112,17 @@ def test_keys_of_an_installed_hypothesis_are_checked(runs):
     assert "competence = 0: must be a whole number of at least 1, in steps" in refused.stderr
 
 
+@pytest.mark.parametrize("verb", ["verify", "resume"])
+def test_without_the_package_a_run_asks_for_it(runs, verb):
+    if verb == "resume":
+        half = ("run", "young-leaf.toml", "-o", "half.h5", "--no-figure", "-q", "--steps", "5")
+        assert vasc(runs, *half).returncode == 0
+    file = {"verify": "young.h5", "resume": "half.h5"}[verb]
+    done = run(runs, sys.executable, "-m", "vasc", verb, file)
+    assert done.returncode == 2
+    assert 'kind = "young-open": is not known here; install the package that' in done.stderr
+
+
 @pytest.mark.parametrize("path", [["parts"], []], ids=["installed", "not installed"])
 def test_leaves_of_the_model_are_judged_as_the_trees_they_are(runs, path):
     judge = (sys.executable, "-m", "vasc", "validate", "leaf", "young.h5")

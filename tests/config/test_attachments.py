@@ -107,6 +107,23 @@ def test_a_record_of_another_version_is_told_as_a_config_is():
         raise AssertionError("read what is unknown")
 
 
+@pytest.mark.parametrize(
+    ("record", "key"),
+    [
+        ({"kind": "young-open"}, 'kind = "young-open"'),
+        ({"kind": "open", "growth": {"kind": "spiral"}}, 'growth.kind = "spiral"'),
+    ],
+)
+def test_a_record_of_a_package_that_is_not_installed_asks_for_it(record, key):
+    with (
+        pytest.raises(ConfigError, match="install the package that offers it") as refused,
+        experiment_from_record(record, name="run.h5"),
+    ):
+        raise AssertionError("read what is unknown")
+    assert f"run.h5: config: {key}: is not known here" in str(refused.value)
+    assert len(refused.value.problems) == 1
+
+
 def test_a_large_file_is_refused(folder):
     with (folder / "a" / "points.csv").open("wb") as file:
         file.truncate(FILE_BYTES + 1)

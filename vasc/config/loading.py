@@ -11,6 +11,7 @@ from vasc.config.bundled import find_config
 from vasc.config.limits import blade_problems, size_problems
 from vasc.config.overrides import Override, overridden
 from vasc.config.reading import parse, read_text, refuse_deep
+from vasc.config.values import Path as KeyPath
 from vasc.config.values import assignment
 from vasc.errors import ConfigError, OutlineError, TimelineError, VascError
 
@@ -183,7 +184,8 @@ def experiment_from_record(record: Mapping[str, Any], *, name: str) -> Iterator[
     Raises
     ------
     ConfigError
-        If this version cannot read the config.
+        If this version cannot read the config, or a package is not installed whose model or
+        growth it names.
     TimelineError
         If the recorded files are damaged.
     """
@@ -193,8 +195,29 @@ def experiment_from_record(record: Mapping[str, Any], *, name: str) -> Iterator[
         raise TimelineError(f"{name}: the recorded files are damaged")
     with unpacked(tables, files) as (renamed, folder):
         label = f"{name}: config"
+        if absent := _not_installed(tables):
+            raise ConfigError([f"{label}: {problem}" for problem in absent])
         parameters = _checked(renamed, folder, label)
         yield Experiment(name, parameters, "", folder, files, label)
+
+
+def _not_installed(tables: dict[str, Any]) -> list[str]:
+    """Describe the model and the growth of a recorded run that no installed package offers."""
+    from vasc.config.schema import installed, models
+    from vasc.growth import GROWTHS
+    from vasc.models import MODELS
+
+    growth = tables.get("growth")
+    asked: list[tuple[KeyPath, Any, Iterable[str]]] = [(("kind",), tables.get("kind"), models())]
+    # a model of another package may have growths of its own
+    if isinstance(growth, dict) and tables.get("kind") in MODELS:
+        known = {**installed("vasc.growth"), **GROWTHS}
+        asked.append((("growth", "kind"), growth.get("kind"), known))
+    return [
+        f"{assignment(path, kind)}: is not known here; install the package that offers it"
+        for path, kind, known in asked
+        if isinstance(kind, str) and kind not in known
+    ]
 
 
 def _checked(tables: dict[str, Any], folder: Path, label: str) -> "LeafVenation":
