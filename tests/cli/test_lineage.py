@@ -125,6 +125,14 @@ def test_what_cannot_be_answered_is_told_in_one_line(leaf, arguments, part, caps
     assert part in line
 
 
+def test_what_the_model_does_not_record_of_an_areole_is_not_told_as_none(leaf, capsys):
+    told = json.loads(output(["lineage", leaf, "--areole", "0", "--json"], capsys))
+    names = ("sources", "drained", "blind_ends", "area_at_birth", "area_at_end")
+    assert [told[name] for name in names] == [None] * 5
+    said = output(["lineage", leaf, "--areole", "0"], capsys)
+    assert said.count("not recorded") == 3
+
+
 def test_a_stem_has_tables_of_its_veins_and_no_areoles(tmp_path, capsys):
     (tmp_path / "stem.toml").write_text(STEM)
     run = str(tmp_path / "stem.h5")

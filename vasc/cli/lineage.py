@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 LONGEST_LIST = 12
 """Ids of a list that are shown to people; JSON holds all."""
 
+MODEL_RECORDS = ("sources", "drained", "blind_ends")
+"""What is known of areoles only where the model records them."""
+
 OPTIONS = {"areoles": "--genealogy"}
 """Options whose table is called otherwise."""
 
@@ -101,7 +104,7 @@ def lineage(
     if as_json:
         print_json(found)
     else:
-        print_pairs({name: _shortened(value) for name, value in found.items()})
+        print_pairs({name: _shortened(value, name) for name, value in found.items()})
 
 
 def _check_choice(given: list[str]) -> None:
@@ -171,7 +174,10 @@ def source_fate(timeline: "Timeline", source: int) -> dict[str, Any]:
 
 
 def areole_fate(timeline: "Timeline", areole: int) -> dict[str, Any]:
-    """Give what became of an areole, in JSON values; what did not happen is None."""
+    """Give what became of an areole, in JSON values; what did not happen is None.
+
+    So is what the model does not record: sources in areoles, where it knows of no areoles.
+    """
     fate = timeline.lineage.areole(areole)
     return {
         "areole": areole,
@@ -181,9 +187,11 @@ def areole_fate(timeline: "Timeline", areole: int) -> dict[str, Any]:
         "ancestors": list(fate.ancestors),
         "split": _known(fate.split),
         "children": list(fate.children),
-        "sources": fate.sources.tolist(),
-        "drained": [_known(step) for step in fate.drained.tolist()],
-        "blind_ends": fate.blind_ends.tolist(),
+        "sources": None if fate.sources is None else fate.sources.tolist(),
+        "drained": None
+        if fate.drained is None
+        else [_known(step) for step in fate.drained.tolist()],
+        "blind_ends": None if fate.blind_ends is None else fate.blind_ends.tolist(),
         **_areas(timeline, fate),
     }
 
@@ -218,8 +226,10 @@ def _known(number: int) -> int | None:
     return None if number < 0 else int(number)
 
 
-def _shortened(value: Any) -> Any:
+def _shortened(value: Any, name: str) -> Any:
     """Give a long list as its number and its first entries."""
+    if value is None and name in MODEL_RECORDS:
+        return "not recorded"
     if not isinstance(value, list):
         return value
     if value and isinstance(value[0], float):

@@ -23,6 +23,9 @@ class Recorded(Protocol):
     def events(self) -> Mapping[str, NDArray]:
         """Columns of the events."""
 
+    def n_rows(self, table: str) -> int:
+        """Give the number of rows of a table."""
+
 
 @dataclass(frozen=True)
 class AreoleFate:
@@ -44,11 +47,11 @@ class AreoleFate:
         Step at which it was split, -1 if it is whole.
     children : tuple of int
         The two areoles it was split into.
-    sources : ndarray of shape (s,), int32
-        Sources that appeared in it, ascending.
-    drained : ndarray of shape (s,), int32
+    sources : ndarray of shape (s,), int32, or None
+        Sources that appeared in it, ascending; None if the model records no areoles.
+    drained : ndarray of shape (s,), int32, or None
         The step at which each of them was drained, -1 if it was not.
-    blind_ends : ndarray of shape (b,), int32
+    blind_ends : ndarray of shape (b,), int32, or None
         Nodes at which the veins of these sources ended blindly.
     """
 
@@ -59,9 +62,9 @@ class AreoleFate:
     ancestors: tuple[int, ...]
     split: int
     children: tuple[int, ...]
-    sources: Ids
-    drained: Ids
-    blind_ends: Ids
+    sources: Ids | None
+    drained: Ids | None
+    blind_ends: Ids | None
 
 
 def areole_fate(timeline: Recorded, genealogy: Genealogy, areole: int) -> AreoleFate:
@@ -85,8 +88,8 @@ def areole_fate(timeline: Recorded, genealogy: Genealogy, areole: int) -> Areole
     if not 0 <= areole < n_areoles:
         known = f"ids are 0 to {n_areoles - 1}" if n_areoles else "the run has none"
         raise TimelineError(f"{timeline.path}: there is no areole {areole}; {known}")
-    events = timeline.events
-    sources = np.unique(_subjects_of(events, EventKind.SOURCE_ENCLOSED, areole))
+    # areoles that were found from the veins have no events of sources in them
+    held = _held(timeline.events, areole) if timeline.n_rows("areoles") else (None,) * 3
     return AreoleFate(
         areole=areole,
         birth=int(genealogy.births[areole]),
@@ -95,9 +98,19 @@ def areole_fate(timeline: Recorded, genealogy: Genealogy, areole: int) -> Areole
         ancestors=_ancestors(genealogy.parents, areole),
         split=int(genealogy.splits[areole]),
         children=tuple(np.flatnonzero(genealogy.parents == areole).tolist()),
-        sources=sources,
-        drained=_steps_of(events, EventKind.SOURCE_REMOVED, sources),
-        blind_ends=_subjects_of(events, EventKind.VEIN_ENDED_BLINDLY, sources),
+        sources=held[0],
+        drained=held[1],
+        blind_ends=held[2],
+    )
+
+
+def _held(events: Mapping[str, NDArray], areole: int) -> tuple[Ids, Ids, Ids]:
+    """Give the sources of an areole, the steps in which they were drained, and blind ends."""
+    sources = np.unique(_subjects_of(events, EventKind.SOURCE_ENCLOSED, areole))
+    return (
+        sources,
+        _steps_of(events, EventKind.SOURCE_REMOVED, sources),
+        _subjects_of(events, EventKind.VEIN_ENDED_BLINDLY, sources),
     )
 
 
