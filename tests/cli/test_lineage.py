@@ -74,6 +74,8 @@ def test_competitors_of_a_source(leaf, capsys):
     assert [row["vein"] for row in found["competitors"]] == table["vein"].tolist() != []
     text = output(["lineage", leaf, "--competitors", "4"], capsys)
     assert text.splitlines()[0].split() == list(table)
+    assert {"first_recorded", "last_recorded", "nodes_recorded"} <= set(table)
+    assert "holds a set when a vein enters or leaves it" in text.splitlines()[-1]
 
 
 def test_a_limit_shortens_a_table(leaf, capsys):

@@ -92,7 +92,13 @@ def test_competitors_are_what_perceived_says(timeline):
     every = timeline.lineage.competitors()
     for source in range(0, timeline.n_rows("sources"), 7):
         table = timeline.lineage.competitors(source)
-        rows = zip(*(table[name].tolist() for name in ("first", "last", "nodes")), strict=True)
+        rows = zip(
+            *(
+                table[name].tolist()
+                for name in ("first_recorded", "last_recorded", "nodes_recorded")
+            ),
+            strict=True,
+        )
         found = dict(zip(table["vein"].tolist(), rows, strict=True))
         assert found == lineages.competitors(timeline, source)
         is_its = every["source"] == source

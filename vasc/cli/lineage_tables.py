@@ -17,6 +17,12 @@ if TYPE_CHECKING:
 NEVER_NULL = {"time", "height", "survival", "standard_error", "low", "high", "median"}
 """Columns of real numbers, in which -1 would be a number like others."""
 
+RECORDED = (
+    "recorded: steps and nodes of the sets in the file, which holds a set when a vein enters or"
+    ' leaves it (record.perceived = "veins"), or also when a vein grows (= "nodes")'
+)
+"""What the columns of competitors mean."""
+
 
 def asked_for(timeline: "Timeline", name: str, source: int | None) -> "dict[str, NDArray]":
     """Give a table of lineage by its name; births with vein orders at the last step."""
@@ -78,6 +84,8 @@ def write(
         n_shown = len(next(iter(shown.values())))
         if limit is not None and limit < n_shown:
             typer.echo(f"... and {n_shown - limit:,} more")
+        if name == "competitors":
+            typer.echo(f"\n{RECORDED}")
         if name == "life_table":
             typer.echo(f"\n{said(median_life(table))}")
 

@@ -55,10 +55,11 @@ def competitors(timeline: Recorded, veins: Veins, source: int | None = None) -> 
     Returns
     -------
     dict of str to ndarray of shape (k,)
-        One row a source and vein, by source, then by ``first``: ``source``; ``vein``, its
-        first node; ``order`` of branching; ``first`` and ``last``, the first and the last step
-        at which a set with one of its nodes was recorded; ``nodes``, how many of its nodes
-        were attracted; ``reached``, true if it, or a branch that it sent toward the source,
+        One row a source and vein, by source, then by ``first_recorded``: ``source``; ``vein``,
+        its first node; ``branching_order``; ``first_recorded`` and ``last_recorded``, the first
+        and the last step at which a set with one of its nodes was recorded, as a rule when a
+        vein entered or left; ``nodes_recorded``, how many of its nodes are in recorded sets;
+        ``reached``, true if it, or a branch that it sent toward the source,
         was awaited there, was the nearest when the source died, or joined another
         there. Empty columns for a source that never attracted a vein.
 
@@ -93,9 +94,9 @@ def competitors(timeline: Recorded, veins: Veins, source: int | None = None) -> 
         "source": pairs[order, 0],
         "vein": pairs[order, 1],
         "branching_order": veins.orders[pairs[order, 1]],
-        "first": first[order].astype(np.int32),
-        "last": last[order].astype(np.int32),
-        "nodes": np.bincount(distinct[:, 0], minlength=len(pairs))[order].astype(np.int32),
+        "first_recorded": first[order].astype(np.int32),
+        "last_recorded": last[order].astype(np.int32),
+        "nodes_recorded": np.bincount(distinct[:, 0], minlength=len(pairs))[order].astype(np.int32),
         "reached": _reached(timeline, veins, pairs)[order],
     }
 
