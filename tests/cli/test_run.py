@@ -138,3 +138,33 @@ def test_what_is_no_timeline_is_refused(verb, here, capsys):
         assert main([verb, name]) == 2
         (line,) = capsys.readouterr().err.splitlines()
         assert name in line
+
+
+LOBED = """kind = "open"
+
+[domain]
+points = [[-1, 0], [1, 0], [12, 30], [2, 30], [0.5, 8], [-0.5, 8], [-2, 30], [-12, 30]]
+length = 30.0
+
+[placement]
+kind = "darts"
+density = 0.05
+birth_distance_sources = 2.0
+birth_distance_veins = 2.0
+
+[arrival]
+kill_distance = 1.0
+"""
+
+
+def test_veins_across_a_sinus_are_warned_of_and_confined(here, capsys):
+    (here / "lobed.toml").write_text(LOBED)
+    arguments = ["run", "lobed.toml", "--no-figure", "--force"]
+    assert main(arguments) == 0
+    said = capsys.readouterr()
+    assert "nodes lie outside the blade" in said.err
+    assert 'extension.kind = "confined" keeps veins in' in said.err
+    assert main([*arguments, "--set", "extension.kind=confined"]) == 0
+    said = capsys.readouterr()
+    assert said.err == ""
+    assert "nodes outside the blade  0" in said.out

@@ -15,7 +15,7 @@ def resume(
     from vasc.cli.interrupts import Interrupts
     from vasc.cli.progress import ProgressLine
     from vasc.cli.start import load_numba
-    from vasc.cli.summary import end_if_interrupted, print_summary
+    from vasc.cli.summary import end_if_interrupted, print_summary, warn_of_veins_outside
     from vasc.timeline import Timeline
     from vasc.timeline.redo import settle
 
@@ -33,3 +33,4 @@ def resume(
     end_if_interrupted(summary, interrupts)
     if as_json or not quiet:
         print_summary(summary, [path], as_json=as_json)
+        warn_of_veins_outside(summary)

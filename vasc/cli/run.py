@@ -57,7 +57,7 @@ def run(
     from vasc.cli.interrupts import Interrupts
     from vasc.cli.progress import ProgressLine
     from vasc.cli.start import load_numba
-    from vasc.cli.summary import end_if_interrupted, print_summary
+    from vasc.cli.summary import end_if_interrupted, print_summary, warn_of_veins_outside
     from vasc.timeline.storage import check_output
 
     if figure is not None and no_figure:
@@ -91,6 +91,7 @@ def run(
     files = [output, *_drawn(output, figure, unroll=experiment.kind == "stem")]
     if as_json or not quiet:
         print_summary(summary, files, as_json=as_json)
+        warn_of_veins_outside(summary)
 
 
 def _drawn(output: Path, figure: Path | None, *, unroll: bool) -> list[Path]:

@@ -43,6 +43,21 @@ def print_summary(summary: "Summary", files: list[Path], *, as_json: bool) -> No
     )
 
 
+def warn_of_veins_outside(summary: "Summary") -> None:
+    """Warn of veins that left the blade, where the config can keep them in."""
+    from vasc.timeline import Timeline
+
+    if not summary.nodes_outside:
+        return
+    with Timeline(summary.output) as timeline:
+        extension = timeline.config.get("extension")
+    if isinstance(extension, dict) and extension.get("kind") == "free":
+        complain(
+            f"warning: {summary.output}: {summary.nodes_outside:,} nodes lie outside the blade, as"
+            ' where veins run across a sinus; extension.kind = "confined" keeps veins in'
+        )
+
+
 def _leaf(summary: "Summary") -> dict[str, Any]:
     """Give the veins of a leaf or stem, and what became of sources: primordia stay."""
     veins = {"nodes": summary.nodes, "segments": summary.segments}
