@@ -5,8 +5,11 @@ import pytest
 from PIL import Image
 from reference.recordings import Recording
 
+from vasc.config import load
 from vasc.errors import OutputError, VascError
+from vasc.experiment import run
 from vasc.render import PICTURE_SUFFIXES, render
+from vasc.timeline import Timeline
 
 SIGNATURES = {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF"}
 
@@ -77,3 +80,20 @@ def test_no_file_is_left_behind_by_an_error(tmp_path):
     with pytest.raises(VascError, match="at least one step"):
         render(Recording(), tmp_path / "leaf.png", steps=[])
     assert list(tmp_path.iterdir()) == []
+
+
+def n_seeds(file):
+    """Count the strokes in the colour of a seed in an svg."""
+    return file.read_text().count("stroke: #b3261e")
+
+
+def test_seeds_are_marked_while_there_is_hardly_a_vein(tmp_path):
+    experiment = load("poplar-leaf")
+    run(experiment, tmp_path / "leaf.h5", steps=60)
+    first = render(tmp_path / "leaf.h5", tmp_path / "first.svg", step=0)
+    assert n_seeds(first) > 0
+    with Timeline(tmp_path / "leaf.h5") as timeline:
+        last = timeline.frame()
+        assert last.network.lengths.sum() > 0.1 * last.blade.length
+    late = render(tmp_path / "leaf.h5", tmp_path / "late.svg")
+    assert n_seeds(late) == 0

@@ -11,6 +11,7 @@ from vasc.analysis.elongation import Elongation
 from vasc.analysis.widths import WidthParameters
 from vasc.arrays import Floats
 from vasc.errors import VascError
+from vasc.render.beginnings import mark_beginnings
 from vasc.render.keys import size_in_points
 from vasc.render.leaf import (
     NARROWEST,
@@ -49,6 +50,8 @@ def render(
     style: LeafStyle | None = None,
 ) -> Path:
     """Write a picture of a recorded leaf, stem or tissue.
+
+    While a leaf has hardly any veins, seeds and attachment are marked.
 
     Parameters
     ----------
@@ -104,8 +107,7 @@ def render(
         if color in TISSUE_COLOR_CHOICES:
             figure = draw_steps(timeline, frames, color=color, scale_bar=scale_bar, side=side)
         else:
-            asked = widths_of(timeline) if widths is None else widths
-            style = LeafStyle() if style is None else style
+            asked, style = widths or widths_of(timeline), style or LeafStyle()
             figure, axes, views = _laid_out(frames, color, style, side)
             stretched = node_widths(timeline, asked, [frame.step for frame in frames])
             last = frames[-1]
@@ -126,6 +128,7 @@ def render(
                     view=view,
                     last_step=max(each.step for each in frames),
                 )
+                mark_beginnings(ax, frame)
         save(figure, output)
     return output
 
