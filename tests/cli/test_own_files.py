@@ -60,6 +60,12 @@ def test_a_file_that_the_config_refers_to_is_refused(drawn, capsys, arguments, h
     assert {path: path.read_bytes() for path in drawn.rglob("*") if path.is_file()} == before
 
 
+def test_resume_does_not_draw_over_it(drawn, capsys):
+    assert main(["resume", "scan.h5", "--figure", "scan.svg", "--force"]) == 2
+    assert "is never replaced; choose another name with --figure" in capsys.readouterr().err
+    assert (drawn / "scan.svg").read_text() == DRAWN
+
+
 def test_python_refuses_it_too(drawn):
     with pytest.raises(OutputError, match=r"scan\.svg: is the file of domain\.file"):
         run(load(drawn / "scan.toml"), drawn / "scan.svg", force=True, steps=1)

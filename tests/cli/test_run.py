@@ -105,6 +105,31 @@ def test_a_run_of_some_steps_is_resumed_to_the_same_tables(here, recorded, capsy
         assert len(columns) > 20
 
 
+def test_resume_replaces_the_picture_of_the_step_it_goes_on_from(here, recorded, capsys):
+    assert main(["run", "leaf.toml", "--steps", "17", "-q"]) == 0
+    early = (here / "leaf.png").read_bytes()
+    assert main(["resume", "leaf.h5", "--steps", "9", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["files"] == ["leaf.h5", "leaf.png"]
+    assert main(["render", "leaf.h5", "-o", "step.png"]) == 0
+    assert early != (here / "leaf.png").read_bytes() == (here / "step.png").read_bytes()
+    assert main(["resume", "leaf.h5", "-q"]) == 0
+    assert (here / "leaf.png").read_bytes() == (recorded / "leaf.png").read_bytes()
+
+
+def test_resume_leaves_another_picture_of_that_name_alone(here, capsys):
+    assert main(["run", "leaf.toml", "--steps", "17", "-q", "--no-figure"]) == 0
+    (here / "leaf.png").write_bytes(b"a photograph")
+    capsys.readouterr()
+    assert main(["resume", "leaf.h5", "--steps", "2"]) == 0
+    assert (here / "leaf.png").read_bytes() == b"a photograph"
+    assert "leaf.png is left as it is" in capsys.readouterr().err
+    assert main(["resume", "leaf.h5", "--steps", "2", "--figure", "leaf.png"]) == 2
+    assert main(["resume", "leaf.h5", "--steps", "2", "--no-figure", "-q"]) == 0
+    assert (here / "leaf.png").read_bytes() == b"a photograph"
+    assert main(["resume", "leaf.h5", "--steps", "2", "--force", "-q"]) == 0
+    assert (here / "leaf.png").read_bytes().startswith(b"\x89PNG")
+
+
 def test_a_complete_run_is_left_alone(recorded, capsys):
     before = (recorded / "leaf.h5").read_bytes()
     assert main(["resume", str(recorded / "leaf.h5")]) == 0

@@ -18,6 +18,13 @@ Steps = Annotated[
 
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Write nothing but errors.")]
 
+Figure = Annotated[
+    Path | None,
+    typer.Option("--figure", metavar="FILE", help="png, svg or pdf; by default beside RUN.h5."),
+]
+
+NoFigure = Annotated[bool, typer.Option("--no-figure", help="Draw no picture.")]
+
 Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.")]
 
 Output = Annotated[

@@ -7,10 +7,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from vasc.cli.options import AsJson, Force, MoreSteps, Quiet
+from vasc.cli.options import AsJson, Figure, Force, MoreSteps, NoFigure, Quiet
 
 if TYPE_CHECKING:
     from vasc.config import Experiment
+
+OTHER_FIGURE = "; choose another name with --figure, or --no-figure"
+"""What to do where the picture would replace a file that is needed."""
 
 EXAMPLES = (
     "vasc run poplar-leaf",
@@ -39,11 +42,8 @@ def run(
         ),
     ] = None,
     steps: MoreSteps = None,
-    figure: Annotated[
-        Path | None,
-        typer.Option("--figure", metavar="FILE", help="png, svg or pdf; by default beside RUN.h5."),
-    ] = None,
-    no_figure: Annotated[bool, typer.Option("--no-figure", help="Draw no picture.")] = False,
+    figure: Figure = None,
+    no_figure: NoFigure = False,
     force: Force = False,
     large: Annotated[
         bool,
@@ -70,7 +70,7 @@ def run(
     check_outputs(config, output, figure, force=force)
     experiment.refuse_own_file(output, "; choose another name with --output")
     if figure is not None:
-        experiment.refuse_own_file(figure, "; choose another name with --figure, or --no-figure")
+        experiment.refuse_own_file(figure, OTHER_FIGURE)
 
     from vasc import experiment as experiments
 
@@ -88,13 +88,13 @@ def run(
             on_size=announcement.expect,
         )
     end_if_interrupted(summary, interrupts)
-    files = [output, *_drawn(output, figure, unroll=experiment.kind == "stem")]
+    files = [output, *drawn(output, figure, unroll=experiment.kind == "stem")]
     if as_json or not quiet:
         print_summary(summary, files, as_json=as_json)
         warn_of_veins_outside(summary)
 
 
-def _drawn(output: Path, figure: Path | None, *, unroll: bool) -> list[Path]:
+def drawn(output: Path, figure: Path | None, *, unroll: bool) -> list[Path]:
     """Draw the last step, if asked for; give the picture."""
     if figure is None:
         return []
@@ -127,7 +127,6 @@ def check_outputs(config: str, output: Path, figure: Path | None, *, force: bool
         set, its folder does not exist, or it is of no known kind.
     """
     from vasc.errors import OutputError
-    from vasc.render import PICTURE_SUFFIXES
 
     named = [("config", Path(config)), ("timeline", output)]
     if figure is not None:
@@ -138,10 +137,24 @@ def check_outputs(config: str, output: Path, figure: Path | None, *, force: bool
             if path.absolute() == other.absolute() or (path.exists() and _is_same(path, other)):
                 raise OutputError(f"{path}: cannot be {other_kind} and {kind} at once")
     if figure is not None:
-        if figure.suffix.lower() not in PICTURE_SUFFIXES:
-            known = ", ".join(PICTURE_SUFFIXES)
-            raise OutputError(f"{figure}: suffix {figure.suffix!r} is not one of {known}")
-        check_picture(figure, force=force)
+        check_figure(figure, force=force)
+
+
+def check_figure(figure: Path, *, force: bool) -> None:
+    """Refuse a picture of a run that is of no known kind, or cannot be written.
+
+    Raises
+    ------
+    OutputError
+        If it is one.
+    """
+    from vasc.errors import OutputError
+    from vasc.render import PICTURE_SUFFIXES
+
+    if figure.suffix.lower() not in PICTURE_SUFFIXES:
+        known = ", ".join(PICTURE_SUFFIXES)
+        raise OutputError(f"{figure}: suffix {figure.suffix!r} is not one of {known}")
+    check_picture(figure, force=force)
 
 
 def check_picture(figure: Path, *, force: bool) -> None:
@@ -161,7 +174,9 @@ def check_picture(figure: Path, *, force: bool) -> None:
         raise OutputError(f"{figure}: exists already; use --force to replace it")
 
 
-def check_not_needed(run: Path, output: Path) -> None:
+def check_not_needed(
+    run: Path, output: Path, hint: str = "; choose another name with --output"
+) -> None:
     """Refuse to write over a file that the config of a recorded run refers to.
 
     Raises
@@ -176,7 +191,7 @@ def check_not_needed(run: Path, output: Path) -> None:
 
     if output.is_file():
         with Timeline(run) as timeline:
-            refuse_recorded(timeline.config, output, "; choose another name with --output")
+            refuse_recorded(timeline.config, output, hint)
 
 
 def check_folder(path: Path) -> None:
