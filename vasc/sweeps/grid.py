@@ -56,14 +56,15 @@ def draw_grid(folder: SweepFolder) -> "Figure | None":
 
 def _draw(panel: "Axes", folder: SweepFolder, run: PlannedRun) -> bool:
     """Draw a leaf; tell whether there is one."""
+    from vasc.analysis.run_widths import widths_of
     from vasc.render import draw_leaf
-    from vasc.render.files import node_widths, widths_of
+    from vasc.render.files import node_widths
     from vasc.timeline import Timeline
 
     panel.set_axis_off()
     try:
         with Timeline(folder.timeline(run.number)) as timeline:
-            widths, step = widths_of(timeline), timeline.last_step
+            widths, step = widths_of(timeline.config), timeline.last_step
             stretched = node_widths(timeline, widths, [step])
             draw_leaf(
                 timeline.frame(),

@@ -138,12 +138,12 @@ def _summary(timeline: "Timeline") -> dict[str, Any]:
 
 def _statistics(timeline: "Timeline") -> dict[str, Any]:
     """Measure the veins of the last step."""
-    from vasc.analysis import WidthParameters, run_widths, statistics
+    from vasc.analysis import run_widths, statistics
+    from vasc.analysis.run_widths import widths_of
 
     widths = None
     if timeline.dimensions == 2:
-        asked = WidthParameters.model_validate(timeline.config.get("widths") or {})
-        widths = run_widths(timeline.frame, timeline.last_step, asked)
+        widths = run_widths(timeline.frame, timeline.last_step, widths_of(timeline.config))
     return dict(_flat(statistics(timeline.frame(), timeline.units, widths=widths)))
 
 
