@@ -147,8 +147,15 @@ def test_the_command_writes_the_report(tmp_path, monkeypatch, capsys):
     assert "1 is below 1.3" in out
     assert "1.46 in Dalbergia" in out
     assert main(["validate", "leaf", "--json", "-o", str(tmp_path)]) == 1
-    assert len(list(tmp_path.glob("check-*.png"))) >= 8
+    drawn = sorted(tmp_path.glob("check-*.png"))
+    assert len(drawn) >= 8
     assert json.loads(capsys.readouterr().out)["suites"][0]["name"] == "leaf"
+    drawn[-1].write_text("mine")
+    assert main(["validate", "leaf", "-o", str(tmp_path)]) == 2
+    assert "exists already; use --force to replace it" in capsys.readouterr().err
+    assert drawn[-1].read_text() == "mine"
+    assert main(["validate", "leaf", "-o", str(tmp_path), "--force"]) == 1
+    assert drawn[-1].stat().st_size > 1000
 
 
 @pytest.mark.parametrize("arguments", [["leafs"], ["growth", "-o", "g.png"]])
