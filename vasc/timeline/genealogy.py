@@ -85,6 +85,15 @@ class Genealogy:
             "generation": generations,
         }
 
+    def ancestors(self, areole: int) -> tuple[int, ...]:
+        """Give the areoles that one was split from, nearest first; none for a first-order loop."""
+        found = []
+        # a parent is an earlier row, in a sound file
+        while 0 <= (parent := int(self.parents[areole])) < areole:
+            found.append(parent)
+            areole = parent
+        return tuple(found)
+
     def alive_before(self, areole: int, step: int) -> int:
         """Give the areole or the ancestor of it that existed just before a step, -1 if none."""
         while areole != NULL and self.births[areole] >= step:

@@ -83,12 +83,9 @@ def loop_of(
         # the sides of a vein were one areole before it grew, so that any of them leads there
         areole = int(beside[0]) if len(beside) and birth > 0 else NULL
         areole = tree.alive_before(areole, birth)
-    ancestors = []
-    above = areole
-    while above != NULL and (above := int(tree.parents[above])) != NULL:
-        ancestors.append(above)
-    first = [areole, *ancestors][-1]
-    return VeinLoop(node, vein, int(veins.orders[node]), areole, first, tuple(ancestors))
+    ancestors = () if areole == NULL else tree.ancestors(areole)
+    first = (areole, *ancestors)[-1]
+    return VeinLoop(node, vein, int(veins.orders[node]), areole, first, ancestors)
 
 
 def _enclosing(timeline: Recorded, vein: int) -> int:
