@@ -93,3 +93,14 @@ def test_more_leaves_than_colors_look_different(suite):
     names = [f"leaf {k}" for k in range(9)]
     curves = {"degrees": dict.fromkeys([*names, "real"]), "real": ["real"]}
     assert len(set(looks({"curves": curves}).values())) == 10
+
+
+def test_densities_are_drawn_over_what_the_check_asks(suite):
+    wider = [
+        one | ({"low": 0.0, "high": 0.4} if one["what"].startswith("minor vein") else {})
+        for one in suite["checks"]
+    ]
+    (ax,) = draw_leaf_check(suite | {"checks": wider}, 15).axes
+    (band,) = ax.collections
+    heights = band.get_paths()[0].vertices[:, 1]
+    assert (heights.min(), heights.max()) == pytest.approx((0.6, 1.4))
