@@ -1,12 +1,11 @@
 """The leaves of a sweep in a grid: one axis from left to right, another from top to bottom."""
 
-import json
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from vasc.errors import VascError
 from vasc.render.styles import INK, TEXT_SIZE
 from vasc.sweeps.folder import SweepFolder
-from vasc.sweeps.plan import PlannedRun
+from vasc.sweeps.plan import PlannedRun, value_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -95,11 +94,8 @@ def _write_row(panel: "Axes", text: str) -> None:
 
 
 def _text(run: PlannedRun, key: str | None) -> str:
-    """Write the value of an axis."""
-    value: Any = "" if key is None else run.values[key]
-    if isinstance(value, int | float) and not isinstance(value, bool):
-        return f"{value:.6g}"
-    return value if isinstance(value, str) else json.dumps(value)
+    """Write the value of an axis; nothing without one."""
+    return "" if key is None else value_text(run.values[key])
 
 
 def _label(key: str, value: str) -> str:
