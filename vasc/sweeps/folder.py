@@ -35,6 +35,8 @@ class SweepFolder:
     ----------
     path : Path
         The folder.
+    inherited : list of int
+        Open files that workers take over, while the folder is locked.
     """
 
     path: Path

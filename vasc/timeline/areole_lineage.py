@@ -76,6 +76,10 @@ def areole_fate(timeline: Recorded, genealogy: Genealogy, areole: int) -> Areole
     areole : int
         One of them.
 
+    Returns
+    -------
+    AreoleFate
+
     Raises
     ------
     TimelineError

@@ -183,6 +183,10 @@ class Lineage:
         step : int
             The step, the last one when not given.
 
+        Returns
+        -------
+        PlaceHistory
+
         Raises
         ------
         TimelineError
