@@ -24,7 +24,11 @@ from vasc.validation.vein_statistics import (
 from vasc.validation.vein_statistics.branchings import branching_exponents
 from vasc.validation.vein_statistics.checks import check_numbers, check_open
 from vasc.validation.vein_statistics.suite import changed
-from vasc.validation.vein_statistics.variants import LEAF_VARIANTS
+from vasc.validation.vein_statistics.variants import (
+    LEAF_VARIANTS,
+    LeafVariant,
+    compare_variants,
+)
 
 
 def value_of(checks, key):
@@ -134,6 +138,28 @@ def test_variants_are_experiments_of_their_own():
     for number, (base, experiment) in enumerate(made):
         assert all(base != other or experiment.tables != one.tables
                    for other, one in made[:number])  # fmt: skip
+
+
+def test_variants_are_grown_and_held_against_the_checks():
+    small = {"domain": {"length": 40.0}, "growth": {"final_length": 200.0}}
+    apart = small | {"placement": {"birth_distance_sources": 20.0}}
+    variants = [
+        LeafVariant("reticulate-leaf", "closed", name, change)
+        for name, change in (("small", small), ("sources apart", apart))
+    ]
+    names = []
+    rows = compare_variants(tuple(variants), names.append)
+    assert names == ["reticulate-leaf: small", "reticulate-leaf: sources apart"]
+    assert [row["variant"] for row in rows] == ["small", "sources apart"]
+    assert rows[0]["areoles"] > rows[1]["areoles"] > 0
+    for row in rows:
+        passed = {
+            key
+            for key, value in row["values"].items()
+            if LEAF_RANGES[key].low <= value <= LEAF_RANGES[key].high
+        }
+        assert set(row["fails"]) == set(row["values"]) - passed
+        assert passed
 
 
 def test_the_command_writes_the_report(tmp_path, monkeypatch, capsys):
