@@ -17,3 +17,13 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("house")
+
+
+def pytest_addoption(parser):
+    """Let the tests of faults be run as often as a release asks for."""
+    parser.addoption(
+        "--tier",
+        choices=("nightly", "release"),
+        default="nightly",
+        help="how much the tests marked `faults` try",
+    )

@@ -10,7 +10,7 @@ import numpy as np
 
 from vasc.analysis.summaries import Summary, summed_up
 from vasc.config import Experiment, experiment_from_record
-from vasc.config.expected import ExpectedSize, refuse_what_no_machine_holds
+from vasc.config.expected import ExpectedSize, refuse_full_disk, refuse_what_no_machine_holds
 from vasc.config.foreseen import foreseen
 from vasc.errors import RunError, TimelineError
 from vasc.events import EventKind, StopReason
@@ -28,6 +28,7 @@ from vasc.timeline.comparison import (
     frame_differences,
     table_differences,
 )
+from vasc.timeline.redo import Durability, settle
 
 
 def never() -> bool:
@@ -89,6 +90,7 @@ def run(
     if on_size is not None:
         on_size(size)
     if not large:
+        refuse_full_disk(Path(output))
         refuse_what_no_machine_holds(size, Path(output), experiment.label or experiment.name)
     streams = Streams(parameters.seed, parameters.stream_names)
     state = model.initial_state(streams)
@@ -109,6 +111,7 @@ def run(
         units=None if units is None else units.model_dump(mode="json"),
         force=force,
         record_perceived=parameters.record.perceived != "none",
+        durability=Durability(parameters.record.durability),
     )
     with recorder:
         observers = [recorder, *observers]
@@ -156,6 +159,7 @@ def resume(
     with Timeline(path) as timeline, repeatable(timeline) as (model, streams):
         reason, is_complete = timeline.stop_reason, timeline.is_complete
         config = timeline.config
+        durability = _durability(config)
         if timeline.n_frames:
             state = model.restore(timeline.tables(), timeline.last_step, streams)
             streams.restore(timeline.stream_words())
@@ -163,8 +167,10 @@ def resume(
             state = model.initial_state(streams)
         is_begun = timeline.n_frames > 0
     if is_complete:
+        # killed after its last commit, before its log was removed
+        settle(Path(path))
         return summed_up(Path(path), state, config, started, reason)
-    with Recorder.resume(path) as recorder:
+    with Recorder.resume(path, durability=durability) as recorder:
         if reason is not None:
             # killed after its last step, before the file was marked as complete
             recorder.close(complete=True)
@@ -258,6 +264,13 @@ def _recorded(
     recorder.phases["simulate_and_record"] = time.perf_counter() - prepared
     recorder.close(outcome="interrupted" if is_interrupted else None)
     return summed_up(recorder.path, state, config, started, _stop_reason(state), is_interrupted)
+
+
+def _durability(config: Mapping[str, Any]) -> Durability:
+    """Give what the recorded config says of a loss of power; the default if it says nothing."""
+    recorded = config.get("record")
+    said = recorded.get("durability") if isinstance(recorded, Mapping) else None
+    return Durability(said) if said in list(Durability) else Durability.BATCH
 
 
 def _growth_name(experiment: Experiment) -> str:

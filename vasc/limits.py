@@ -54,3 +54,6 @@ SWEEP_RUNS = 100_000
 
 MEMORY_SHARE = 0.8
 """Share of the memory of the machine that a run may be expected to take."""
+
+FREE_BYTES = 64_000_000
+"""Bytes that a disk must have free for a run to begin."""

@@ -47,7 +47,9 @@ def wait_for_steps(path, n_steps, seconds=60.0):
     raise AssertionError(f"{path} did not get {n_steps} steps")
 
 
-@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(
+    ("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
+)
 def test_a_signal_ends_a_run_that_can_be_resumed(here, number, code):
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
     run = start(here, "run", "leaf.toml", "--no-figure", *LONG, **pipes)
@@ -210,7 +212,8 @@ def test_a_run_is_continued_by_one_at_a_time(here, capsys):
         wait_for_steps(here / "leaf.h5", 60)
         for words in (["resume", "leaf.h5"], ["run", "leaf.toml", "--force", "--no-figure"]):
             assert main(words) == 2
-            assert capsys.readouterr().err == "leaf.h5: is being written by another run\n"
+            by = rf"another run \(process {long.pid} on .*\)"
+            assert re.fullmatch(rf"leaf\.h5: is being written by {by}\n", capsys.readouterr().err)
     finally:
         long.send_signal(signal.SIGINT)
         assert long.wait(timeout=30) == 130

@@ -10,10 +10,11 @@ from vasc.config.expected import (
     ExpectedSize,
     expected_size,
     memory_of_machine,
+    refuse_full_disk,
     refuse_what_no_machine_holds,
 )
 from vasc.errors import ConfigError, OutputError, RunError
-from vasc.limits import MEMORY_SHARE
+from vasc.limits import FREE_BYTES, MEMORY_SHARE
 from vasc.timeline import Timeline
 
 DARTS = "density = 0.02\nbirth_distance_sources = 4.0\nbirth_distance_veins = 4.0"
@@ -64,6 +65,16 @@ def test_the_limits_of_a_machine_are_exact(more, is_taken, tmp_path, monkeypatch
         else:
             with pytest.raises(error, match=said):
                 refuse_what_no_machine_holds(SIZE, tmp_path / "run.h5", "leaf")
+
+
+@pytest.mark.parametrize(("more", "is_taken"), [(-1, True), (0, True), (1, False)])
+def test_a_run_begins_with_some_room_on_the_disk(more, is_taken, tmp_path, monkeypatch):
+    monkeypatch.setattr(expected, "free_bytes", lambda output: FREE_BYTES - more)
+    if is_taken:
+        refuse_full_disk(tmp_path / "run.h5")
+    else:
+        with pytest.raises(OutputError, match=r"its disk has 64\.0 MB free, .*--large"):
+            refuse_full_disk(tmp_path / "run.h5")
 
 
 def test_a_machine_says_how_much_memory_it_has():

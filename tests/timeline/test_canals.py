@@ -1,18 +1,17 @@
 """Canalization recorded: read, continued from any step, repeated, and cut off by divergence."""
 
 import shutil
-from functools import cache, partial
 
 import h5py
 import numpy as np
 import pytest
-from timeline import canals, crash_points
+from timeline import canals
 from timeline.synthetic import contents
 
 from vasc import experiment
 from vasc.cli.program import main
 from vasc.config import load_text
-from vasc.errors import RunError, TimelineError
+from vasc.errors import RunError
 from vasc.events import EventKind
 from vasc.fields import FIELD_COLUMNS
 from vasc.simulation import simulate
@@ -112,39 +111,6 @@ def test_verify_finds_one_flipped_bit_of_each_field(whole, tmp_path, name):
         file[f"fields/{name}"][20 * size + 7 : 20 * size + 8] = value
     found = experiment.verify(path)
     assert [one[:4] for one in found] == [(20, "fields", name, 7)]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("verb", ["record", "resume"])
-def test_a_run_killed_at_a_write_call_reads_and_goes_on(kind, verb, whole, tmp_path):
-    assert shutil.which("strace"), "this test needs the program strace"
-    n_tried, path, before = 60, tmp_path / "run.h5", b""
-    call = f"canals.{{}}(Path(sys.argv[1]), {kind!r})"
-    if verb == "resume":
-        canals.record(path, kind, steps=40)
-        before = path.read_bytes()
-    changes, n_hidden = crash_points.trace_call(path, call.format(verb), batch=8)
-    n_hidden = n_hidden if verb == "record" else 0
-    expected, lost, tried = cache(partial(contents, whole)), [], 0
-    every = max(1, (len(changes) - n_hidden) // n_tried)
-    for number, state in enumerate(crash_points.states(changes, before)):
-        if number < n_hidden or (number - n_hidden) % every:
-            continue
-        tried += 1
-        path.write_bytes(state)
-        try:
-            with Timeline(path) as timeline:
-                n_frames = timeline.n_frames
-            if n_frames:
-                assert contents(path) == expected(n_frames)
-            assert validate(path) == []
-            canals.resume(path, kind)
-            assert contents(path) == contents(whole)
-        except (TimelineError, OSError, AssertionError) as error:
-            lost.append((number, str(error)[:200]))
-    print(f"{kind} {verb}: {tried} of {len(changes)} tried, {len(lost)} lost")
-    assert tried >= n_tried
-    assert lost == []
 
 
 @pytest.fixture(scope="module")

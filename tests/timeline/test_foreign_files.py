@@ -86,6 +86,28 @@ def test_a_column_of_another_type(path):
     assert_refused(path, r"nodes/birth is float64\[\] a row, expected int32\[\]")
 
 
+@pytest.mark.parametrize("name", ["nodes/birth", "frames/streams", "committed", "blade/ring_xy"])
+def test_a_dataset_without_a_value(path, name):
+    def make(file, old):
+        file["x"] = h5py.Empty(old.dtype)
+
+    replace(path, name, make)
+    if name != "blade/ring_xy":
+        assert_refused(path, f"{name} holds no value")
+    assert any(f"{name} holds no value" in finding for finding in validate(path))
+
+
+@pytest.mark.parametrize("name", ["nodes/birth", "frames/n_nodes", "blade/ring_xy"])
+def test_a_single_value_where_a_column_should_be(path, name):
+    def make(file, old):
+        file["x"] = old.ravel()[0]
+
+    replace(path, name, make)
+    if name != "blade/ring_xy":
+        assert_refused(path, f"{name} is a single value, expected rows")
+    assert any(f"{name} is a single value" in finding for finding in validate(path))
+
+
 def test_a_group_where_a_column_should_be(path):
     replace(path, "nodes/birth", lambda file, old: file.create_group("x"))
     assert_refused(path, "nodes/birth is not a dataset")

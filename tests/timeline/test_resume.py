@@ -9,6 +9,7 @@ from timeline.synthetic import NAMES, SEED, SyntheticRun, contents, create, reco
 from vasc.errors import TimelineError
 from vasc.streams import Streams
 from vasc.timeline import Recorder, Timeline, layout, validate
+from vasc.timeline.redo import Pager, log_of, settle
 
 LAST = 150
 
@@ -85,6 +86,20 @@ def test_a_complete_run_that_goes_on_is_not_complete_until_it_ends(tmp_path):
     recorder.close(complete=False)
     with Timeline(path) as timeline:
         assert (timeline.n_frames, timeline.is_complete) == (12, False)
+
+
+def test_a_complete_run_killed_before_its_log_was_removed_is_settled(tmp_path, whole, monkeypatch):
+    path = tmp_path / "run.h5"
+    with monkeypatch.context() as patched:
+        patched.setattr(Pager, "release", Pager.abandon)
+        record(path, LAST)
+    log = log_of(path)
+    assert log.exists()
+    assert contents(path) == whole
+    settle(path)
+    assert not log.exists()
+    assert contents(path) == whole
+    settle(path)
 
 
 def test_a_second_writer_is_refused(tmp_path):

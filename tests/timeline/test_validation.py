@@ -1,11 +1,13 @@
 import h5py
 import numpy as np
 import pytest
-from timeline.synthetic import record
+from timeline.synthetic import NAMES, SEED, SyntheticRun, record
 
+from vasc.errors import TimelineError
 from vasc.events import EventKind
 from vasc.states import SourceState
-from vasc.timeline import Timeline, validate
+from vasc.streams import Streams
+from vasc.timeline import Recorder, Timeline, validate
 
 LAST = 40
 
@@ -257,7 +259,52 @@ def test_a_finding_says_how_many_rows_are_bad(path):
 def test_the_tolerance_of_positions_is_held_on_both_sides(path):
     with h5py.File(path, "r+") as file:
         file["nodes/position"][8, 0] += 1e-10
+    # it keeps to the rules, and is not what was recorded
+    assert validate(path) == ["[checksums] nodes/position is not what was recorded"]
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("blade/seeds", "blade/seeds"), ("config/toml", "config/toml"), ("seed", "attributes")],
+)
+def test_what_never_changes_is_checked_too(path, name, said):
+    with h5py.File(path, "r+") as file:
+        if name == "seed":
+            file.attrs.modify(name, file.attrs[name] + np.uint64(1))
+        elif name == "config/toml":
+            file[name][()] = file[name][()].replace(b"synthetic", b"Synthetic")
+        else:
+            file[name][0, 0] += 0.25
+    assert validate(path) == [f"[checksums] {said} is not what was recorded"]
+    with pytest.raises(TimelineError, match=f"is damaged: {said} is not what was recorded"):
+        Recorder.resume(path)
+
+
+def test_what_was_recorded_before_a_kill_is_checked_up_to_there(tmp_path):
+    path = tmp_path / "run.h5"
+    record(path, 30, stop_after=10)
+    recorder = resumed_and_killed(path, 20)
+    assert recorder.n_frames == 21
     assert validate(path) == []
+    with h5py.File(path, "r+") as file:
+        file["frames/time"][4] += 1e-12
+    assert validate(path) == ["[checksums] frames/time is not what was recorded"]
+
+
+def resumed_and_killed(path, last_step):
+    """Go on with a run, and end it as a kill does, all commits being in the file."""
+    run, streams = SyntheticRun(30), Streams(SEED, NAMES)
+    with Timeline(path) as timeline:
+        run.restore(timeline.tables(), timeline.last_step)
+        streams.restore(timeline.stream_words())
+    recorder = Recorder.resume(path)
+    for state in run.states(streams):
+        recorder.observe(state, streams)
+        if state.step == last_step:
+            break
+    recorder._commit()
+    recorder._store.give_up()
+    return recorder
 
 
 def test_a_complete_run_names_its_reason(path):

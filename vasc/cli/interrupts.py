@@ -1,4 +1,4 @@
-"""Ctrl-C during a run: the step is finished, what was made is kept."""
+"""Ctrl-C during a run, or the end of its terminal: the step is finished, what was made is kept."""
 
 import os
 import signal
@@ -6,7 +6,11 @@ import threading
 from types import FrameType, TracebackType
 from typing import Any, Self
 
-SIGNALS = (signal.SIGINT, signal.SIGTERM)
+SIGNALS = tuple(
+    signal.Signals[name]
+    for name in ("SIGINT", "SIGTERM", "SIGHUP")
+    if name in signal.Signals.__members__
+)
 
 
 class Interrupts:
@@ -25,7 +29,9 @@ class Interrupts:
     def __enter__(self) -> Self:
         # Python lets only the main thread ask for signals
         if threading.current_thread() is threading.main_thread():
-            self._before = {number: signal.signal(number, self._note) for number in SIGNALS}
+            # what is ignored stays so: `nohup` asks for it
+            wanted = [one for one in SIGNALS if signal.getsignal(one) != signal.SIG_IGN]
+            self._before = {number: signal.signal(number, self._note) for number in wanted}
         return self
 
     def __exit__(

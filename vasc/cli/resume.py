@@ -17,10 +17,12 @@ def resume(
     from vasc.cli.start import load_numba
     from vasc.cli.summary import end_if_interrupted, print_summary
     from vasc.timeline import Timeline
+    from vasc.timeline.redo import settle
 
     with Timeline(path) as timeline:
         was_complete, last_step = timeline.is_complete, timeline.last_step
     if was_complete and not (quiet or as_json):
+        settle(path)
         typer.echo(f"{path} is complete: its {last_step:,} steps are all there are")
         return
     with Interrupts() as interrupts, ProgressLine(quiet=quiet) as progress:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from vasc.errors import ConfigError, OutputError
-from vasc.limits import MEMORY_SHARE
+from vasc.limits import FREE_BYTES, MEMORY_SHARE
 
 if TYPE_CHECKING:
     from vasc.growth import Growth
@@ -150,6 +150,22 @@ def refuse_what_no_machine_holds(size: ExpectedSize, output: Path, label: str) -
         raise OutputError(
             f"{output}: the run may have {expected} and take {size.file / 1e9:.3g} GB, and the"
             f" disk has {free / 1e9:.3g} GB free (--large runs it all the same)"
+        )
+
+
+def refuse_full_disk(output: Path) -> None:
+    """Refuse to begin a run on a disk that is almost full.
+
+    Raises
+    ------
+    OutputError
+        If less than ``FREE_BYTES`` are free.
+    """
+    free = free_bytes(output)
+    if free < FREE_BYTES:
+        raise OutputError(
+            f"{output}: its disk has {free / 1e6:,.1f} MB free, a run begins with"
+            f" {FREE_BYTES / 1e6:.0f} MB at least (--large runs it all the same)"
         )
 
 

@@ -76,6 +76,12 @@ class RecordParameters(Parameters):
         " or never ('none').",
         default="veins",
     )
+    durability: Literal["process", "batch", "strict"] = quantity(
+        "What a loss of power may take, a killed process never loses what is recorded: the last"
+        " second at most ('batch'), nothing, with every step brought to the disk by itself"
+        " ('strict'), or what the system has not written yet ('process').",
+        default="batch",
+    )
 
     @property
     def least_change(self) -> int:

@@ -131,16 +131,12 @@ def _holds(path: Path, experiment: Experiment) -> bool:
 
 def _wait_for_others(path: Path) -> None:
     """Wait until no other process writes a timeline, as one that only seemed to be lost may."""
-    from vasc.timeline.guard import locked
+    from vasc.timeline.redo import is_being_written, log_of
 
     end = time.monotonic() + PATIENCE
-    while True:
-        try:
-            with locked(path):
-                return
-        except TimelineError as error:
-            if time.monotonic() > end:
-                raise RunError("another process writes its timeline") from error
+    while is_being_written(path, log_of(path)):
+        if time.monotonic() > end:
+            raise RunError("another process writes its timeline")
         time.sleep(0.2)
 
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vasc.errors import TimelineError
 from vasc.timeline import guard, layout
 from vasc.timeline.opening import Found, find
+from vasc.timeline.redo import steady
 from vasc.timeline.storage import reason
 
 
@@ -50,18 +51,17 @@ class OpenFile:
         TimelineError
             If the rows cannot be read, or the file is closed.
         """
-        for pause in (*guard.PAUSES, None):
-            self._check_open()
-            try:
-                rows = self._read(name, start, stop, out)
-                if self.found.is_complete or self._is_written(name, rows):
-                    return rows
-                problem = "some rows were never written"
-            except guard.TRANSIENT as error:
-                problem = reason(error)
-            if pause is not None:
-                time.sleep(pause)
+        self._check_open()
+        rows, problem = self._attempt(name, start, stop, out)
+        for pause in guard.PAUSES if rows is None else ():
+            time.sleep(pause)
+            with steady(self.path):
                 self._reopen()
+                rows, problem = self._attempt(name, start, stop, out)
+            if rows is not None:
+                break
+        if rows is not None:
+            return rows
         raise TimelineError(
             f"{self.path}: {name}: rows {start} to {stop} cannot be read: {problem}"
         )
@@ -105,6 +105,17 @@ class OpenFile:
         self._check_open()
         return guard.open_item(self.path, self.file, name)
 
+    def _attempt(
+        self, name: str, start: int, stop: int, out: NDArray | None
+    ) -> tuple[NDArray | None, str]:
+        """Read rows; None, and what is wrong, if they are not all there."""
+        try:
+            rows = self._read(name, start, stop, out)
+        except guard.TRANSIENT as error:
+            return None, reason(error)
+        is_there = self.found.is_complete or self._is_written(name, rows)
+        return (rows, "") if is_there else (None, "some rows were never written")
+
     def _read(self, name: str, start: int, stop: int, out: NDArray | None) -> NDArray:
         """Read rows once."""
         dataset = self._datasets.get(name)
@@ -141,15 +152,16 @@ class OpenFile:
 def _open(path: Path) -> tuple[h5py.File, Found]:
     """Open a file and find what is committed, trying again while it is being written."""
     for pause in (*guard.PAUSES, None):
-        file = guard.open_for_reading(path)
-        try:
-            return file, find(path, file)
-        except guard.TRANSIENT as error:
-            file.close()
-            if pause is None:
-                raise TimelineError(f"{path}: is damaged: {reason(error)}") from error
-        except BaseException:
-            file.close()
-            raise
+        with steady(path):
+            file = guard.open_for_reading(path)
+            try:
+                return file, find(path, file)
+            except guard.TRANSIENT as error:
+                file.close()
+                if pause is None:
+                    raise TimelineError(f"{path}: is damaged: {reason(error)}") from error
+            except BaseException:
+                file.close()
+                raise
         time.sleep(pause)
     raise AssertionError("unreachable")

@@ -1,9 +1,10 @@
-"""A compressed column that a killed process leaves readable: no chunk is ever moved.
+"""A compressed column that never pulls a chunk away from under a reader: none is moved.
 
 HDF5 moves a compressed chunk that is rewritten in another size, and uses its old place
-for something else before the index says so. Here a chunk is compressed if all its rows
-come in one call, and is then final. One that is filled bit by bit is stored as it is,
-its filters left out, so that it has its full size from the start and stays in its place.
+for something else; whoever has the file open still looks for it there. Here a chunk is
+compressed if all its rows come in one call, and is then final. One that is filled bit by
+bit is stored as it is, its filters left out, so that it has its full size from the start
+and stays in its place.
 """
 
 from typing import Any

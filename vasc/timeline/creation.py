@@ -13,6 +13,7 @@ from vasc.domain import Blade, Tissue
 from vasc.errors import TimelineError
 from vasc.timeline import layout
 from vasc.timeline.layout import Motion
+from vasc.timeline.redo import Durability, sync_folder
 from vasc.timeline.storage import Store, beside, check_output, publish
 from vasc.timeline.tissues import arrays_of, check_room
 
@@ -33,6 +34,7 @@ def create_file(
     stream_names: tuple[str, ...],
     units: Mapping[str, str | float],
     first_record: str,
+    durability: Durability,
     force: bool,
 ) -> None:
     """Make a timeline without frames; it gets its name only when it is sound.
@@ -61,6 +63,8 @@ def create_file(
         What a length and a time mean.
     first_record : str
         The first provenance record.
+    durability : Durability
+        Whether the file is brought to the disk.
     force : bool
         Replace a file that exists.
 
@@ -83,7 +87,7 @@ def create_file(
         check_room(path, tissue)
     unready = beside(path)
     try:
-        store = Store.create(unready)
+        store = Store.create(unready, durability)
         try:
             with store.writing():
                 _describe(store, header, motion, dimensions, has_tissue, units)
@@ -96,9 +100,12 @@ def create_file(
                     store.add_array(
                         name, np.zeros(1, dtype=column.dtype), {"meaning": column.meaning}
                     )
+                store.close()
         finally:
-            store.close()
+            store.give_up()
         publish(unready, path, force=force)
+        if durability != Durability.PROCESS:
+            sync_folder(path.absolute().parent)
     finally:
         with contextlib.suppress(OSError):
             unready.unlink(missing_ok=True)

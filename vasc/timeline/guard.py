@@ -7,22 +7,19 @@ layout are opened, component by component, and only plain data are accepted.
 
 import contextlib
 import os
-import sys
 import time
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import h5py
 import numpy as np
+from h5py import h5f
 
 from vasc.arrays import Column
 from vasc.errors import TimelineError
 from vasc.timeline.layout import FIELDS, FORMAT, MOTION, VERSION
-from vasc.timeline.storage import reason
-
-if sys.platform != "win32":
-    import fcntl
+from vasc.timeline.redo import BusyError, Durability, Snapshot, log_of, steady, writer_of
+from vasc.timeline.storage import Store, reason
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 PAUSES = (0.01, 0.02, 0.05, 0.1, 0.2)
@@ -32,17 +29,17 @@ TRANSIENT = (OSError, RuntimeError, KeyError, ValueError)
 """What HDF5 raises on a file caught in the middle of a write."""
 
 ALLOWED_FILTERS = frozenset({1, 2, 3})
-"""deflate, shuffle, fletcher32: only a packed copy has any."""
+"""deflate, shuffle, fletcher32."""
 MAX_BYTES = 4 << 30
 """The most that one dataset may declare, if it is one that is read whole."""
 MAX_RATIO = 1000
 """The most that filters may have saved."""
 SLACK = 1 << 20
-"""Bytes a killed run may have declared and not yet written."""
+"""Bytes that may be declared beyond what the file holds: chunks that are begun."""
 
 
 def open_for_reading(path: Path) -> h5py.File:
-    """Open a file without a lock, so that no writer is ever disturbed.
+    """Open a file, with what waits in its log, and keep no lock: no writer is ever disturbed.
 
     Raises
     ------
@@ -52,15 +49,16 @@ def open_for_reading(path: Path) -> h5py.File:
     _check_signature(path)
     for pause in (*PAUSES, None):
         try:
-            return _open(path)
-        except OSError as error:
+            with steady(path):
+                return _open(path)
+        except TRANSIENT as error:
             if pause is None:
                 raise TimelineError(f"{path}: {_explain(error)}") from error
         time.sleep(pause)
     raise AssertionError("unreachable")
 
 
-def open_for_writing(path: Path) -> h5py.File:
+def open_for_writing(path: Path, durability: Durability) -> Store:
     """Open a file to continue it; it is locked against other writers.
 
     Raises
@@ -69,63 +67,40 @@ def open_for_writing(path: Path) -> h5py.File:
         If another run is writing the file, or it cannot be opened.
     """
     _check_signature(path)
+    if _is_open_here(path):
+        raise TimelineError(
+            f"{path}: is open for reading in this process; close it before it is continued"
+        )
     try:
-        return h5py.File(path, "r+", locking="best-effort")
-    except OSError as error:
+        return Store.open(path, durability)
+    except BusyError as error:
+        raise TimelineError(f"{path}: is being written by {writer_of(log_of(path))}") from error
+    except TRANSIENT as error:
         raise TimelineError(f"{path}: {_explain(error)}") from error
 
 
-@contextlib.contextmanager
-def locked(path: Path) -> Iterator[None]:
-    """Keep other writers away from a file, by the lock that HDF5 takes to write one.
-
-    Nothing is locked if the file cannot be opened or the system has no such locks.
-
-    Raises
-    ------
-    TimelineError
-        If another run is writing the file.
-    """
-    handle = _lock(path)
-    try:
-        yield
-    finally:
-        if handle is not None:
-            os.close(handle)
-
-
-def _lock(path: Path) -> int | None:
-    """Open and lock a file, the one that has its name once it is locked."""
-    if sys.platform == "win32":
-        return None
-    while True:
-        try:
-            handle = os.open(path, os.O_RDONLY)
-        except OSError:
-            return None
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            os.close(handle)
-            raise TimelineError(f"{path}: {_explain(error)}") from error
-        except OSError:
-            # a file system without locks
-            return handle
-        with contextlib.suppress(FileNotFoundError):
-            if os.path.samestat(os.fstat(handle), os.stat(path)):
-                return handle
-        os.close(handle)
-
-
 def _open(path: Path) -> h5py.File:
-    """Open without a lock, or as this very process has opened the file for writing."""
+    """Open without a lock, as the log has it."""
+    snapshot = Snapshot.of(path)
+    if snapshot is not None:
+        return h5py.File(snapshot, "r")
     try:
         return h5py.File(path, "r", locking=False)
     except OSError as error:
-        # one process must open a file alike each time; its own writer locks
+        # one process must open a file alike each time, and whoever uses h5py locks
         if "locking" not in str(error):
             raise
         return h5py.File(path, "r", locking="best-effort")
+
+
+def _is_open_here(path: Path) -> bool:
+    """Tell whether this process reads a file: HDF5 would show it as it was, also if opened anew."""
+    for file in h5f.get_obj_ids(h5f.OBJ_ALL, h5f.OBJ_FILE):
+        # a name of a file in memory is none
+        with contextlib.suppress(OSError, ValueError):
+            if path.samefile(os.fsdecode(h5f.get_name(file))):
+                return True
+    return False
 
 
 def _check_signature(path: Path) -> None:
@@ -141,14 +116,9 @@ def _check_signature(path: Path) -> None:
         raise TimelineError(f"{path}: is not an HDF5 file, so it is no timeline")
 
 
-def _explain(error: OSError) -> str:
+def _explain(error: Exception) -> str:
     """Say in a few words why HDF5 could not open a file."""
-    text = str(error)
-    if isinstance(error, BlockingIOError) or "unable to lock" in text:
-        return "is being written by another run"
-    if "already open" in text:
-        return "is open for reading in this process; close it before it is continued"
-    if "truncated" in text:
+    if "truncated" in str(error):
         return "is truncated: its end is missing"
     return f"cannot be opened: {reason(error)}"
 
@@ -246,13 +216,21 @@ def _check_plain(path: Path, name: str, dataset: h5py.Dataset) -> None:
     if not filters <= ALLOWED_FILTERS:
         unknown = sorted(filters - ALLOWED_FILTERS)
         raise TimelineError(f"{path}: {name} uses the unknown filters {unknown}; refused")
+    if dataset.shape is None:
+        raise TimelineError(f"{path}: {name} holds no value")
     declared = int(dataset.size or 0) * dataset.dtype.itemsize
-    limit = os.path.getsize(path) * (MAX_RATIO if filters else 1) + SLACK
+    limit = _n_bytes(path) * (MAX_RATIO if filters else 1) + SLACK
     # explicit positions and fields are read step by step
     is_sliced = name.startswith((f"{MOTION}/", f"{FIELDS}/"))
     most = limit if is_sliced else min(limit, MAX_BYTES)
     if declared > most:
         raise TimelineError(f"{path}: {name} declares {declared} bytes, more than the file holds")
+
+
+def _n_bytes(path: Path) -> int:
+    """Give the bytes of a file and its log."""
+    log = log_of(path)
+    return os.path.getsize(path) + (os.path.getsize(log) if log.exists() else 0)
 
 
 def check_column(path: Path, name: str, dataset: h5py.Dataset, column: Column) -> None:
@@ -263,6 +241,8 @@ def check_column(path: Path, name: str, dataset: h5py.Dataset, column: Column) -
     TimelineError
         If it differs.
     """
+    if not dataset.shape:
+        raise TimelineError(f"{path}: {name} is a single value, expected rows")
     if dataset.dtype != np.dtype(column.dtype) or dataset.shape[1:] != column.shape:
         raise TimelineError(
             f"{path}: {name} is {dataset.dtype}{list(dataset.shape[1:])} a row, "

@@ -29,6 +29,7 @@ from vasc.timeline.layout import (
     count_column,
 )
 from vasc.timeline.provenance import sessions
+from vasc.timeline.redo import Durability
 from vasc.timeline.storage import Store, reason
 
 
@@ -201,7 +202,9 @@ def find_places(
     return starts
 
 
-def open_to_continue(path: Path) -> tuple[Store, Found, dict[str, NDArray[np.int64]], int]:
+def open_to_continue(
+    path: Path, durability: Durability = Durability.BATCH
+) -> tuple[Store, Found, dict[str, NDArray[np.int64]], int]:
     """Open a timeline for writing, locked against other writers.
 
     Returns
@@ -215,26 +218,37 @@ def open_to_continue(path: Path) -> tuple[Store, Found, dict[str, NDArray[np.int
     TimelineError
         If the file is no sound timeline, is newer than this version, or is
         being written by another run.
+    OutputError
+        If its log cannot be written.
     """
-    file = guard.open_for_writing(path)
+    store = guard.open_for_writing(path, durability)
+    try:
+        return store, *_continued(path, store)
+    except BaseException:
+        store.abandon()
+        raise
+
+
+def _continued(path: Path, store: Store) -> tuple[Found, dict[str, NDArray[np.int64]], int]:
+    """Find what is committed in a file, and make its log ready."""
+    file = store.file
     try:
         found = find(path, file)
         starts = find_places(path, file, found, lambda name, *rows: file[name][slice(*rows)])
         known = sessions(read_records(path, file))
-        if found.version > VERSION:
-            text, mine = (".".join(map(str, v)) for v in (found.version, VERSION))
-            raise TimelineError(
-                f"{path}: is a timeline of version {text}, this vasc continues {mine} at most; "
-                "use a version of vasc that is as new as the file"
-            )
     except guard.TRANSIENT as error:
-        file.close()
         raise TimelineError(f"{path}: is damaged: {reason(error)}") from error
-    except BaseException:
-        file.close()
-        raise
-    session = 1 + max((s["session"] for s in known), default=-1)
-    return Store(path, file), found, starts, session
+    if found.version > VERSION:
+        text, mine = (".".join(map(str, v)) for v in (found.version, VERSION))
+        raise TimelineError(
+            f"{path}: is a timeline of version {text}, this vasc continues {mine} at most; "
+            "use a version of vasc that is as new as the file"
+        )
+    if not known:
+        raise TimelineError(f"{path}: {PROVENANCE} says of no run that it wrote the file")
+    with store.writing():
+        store.begin()
+    return found, starts, 1 + max(session["session"] for session in known)
 
 
 def read_records(path: Path, file: h5py.File) -> list[str]:

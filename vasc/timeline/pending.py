@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from vasc.fields import Fields
 from vasc.state import Places, State
 from vasc.streams import Streams
+from vasc.timeline.layout import Motion, form_of, motion_of
 
 FRAME_FIELDS = ("step", "time", "motion", "outline_motion", "streams")
 """Fields of a pending frame that are columns of ``frames``, those of maps only in some files."""
@@ -38,3 +39,13 @@ class Pending(NamedTuple):
             state.fields,
             streams.state(),
         )
+
+
+def misfit(state: State, form: tuple[Motion, int, tuple[int, int]]) -> str:
+    """Say in what a state differs from the form of a file."""
+    motion, dimensions, cells = form
+    if motion_of(state) != motion:
+        return f"is {motion_of(state)}, the file is {motion}"
+    if state.dimensions != dimensions:
+        return f"has {state.dimensions} dimensions, the file {dimensions}"
+    return "has {} cells and {} walls, the file {} and {}".format(*form_of(state)[2], *cells)

@@ -3,6 +3,7 @@
 import importlib.metadata
 import json
 import platform
+import secrets
 from collections.abc import Iterable, Mapping
 from datetime import UTC, datetime
 from functools import cache
@@ -43,6 +44,7 @@ def begin_session(
     record: dict[str, Any] = {
         "session": session,
         "kind": kind,
+        "identifier": secrets.token_hex(16),
         "started": _now(),
         "software": software(),
         "platform": machine(),
@@ -54,7 +56,12 @@ def begin_session(
 
 
 def end_session(
-    session: int, *, outcome: str, last_step: int, wall_seconds: Mapping[str, float]
+    session: int,
+    *,
+    outcome: str,
+    last_step: int,
+    wall_seconds: Mapping[str, float],
+    checksums: Mapping[str, str],
 ) -> dict[str, Any]:
     """Describe how a session ended; merged into its beginning by :func:`sessions`."""
     return {
@@ -63,6 +70,7 @@ def end_session(
         "outcome": outcome,
         "last_step": last_step,
         "wall_seconds": {name: round(seconds, 6) for name, seconds in wall_seconds.items()},
+        "checksums": dict(checksums),
     }
 
 

@@ -1,37 +1,40 @@
-"""Growing columns in an HDF5 file: every write of vasc to HDF5 is made here.
+"""Growing columns in an HDF5 file, and the one door through which vasc writes such files.
 
-Nothing that exists is rewritten, except two marks of one number each. Columns
-carry no filters: a compressed chunk is moved when it grows, and a process that
-is killed then loses the file. Those that do, for being large, are written by
-:mod:`vasc.timeline.compressed`, which moves none.
-
-HDF5 writes where a page is before it writes the page, and last of all how long the file
-is. So that a process may be killed in between, every column has its index from the
-start, and the file states its length before each flush.
+HDF5 writes into the memory of a :mod:`vasc.timeline.redo` pager, and what it has written
+becomes part of the file commit by commit. Nothing that exists is rewritten all the same,
+except two marks of one number each: a reader that has the file open keeps what it found.
 """
 
 import contextlib
 import os
 import secrets
-import sys
+import shutil
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import h5py
 import numpy as np
-from h5py import h5d, h5f, h5o, h5p, h5s, h5t
+from h5py import h5d, h5f, h5p, h5s, h5t
 from numpy.typing import NDArray
 
 from vasc.arrays import Column
 from vasc.errors import OutputError
 from vasc.timeline.compressed import CompressedColumn
-from vasc.timeline.layout import fill_value
+from vasc.timeline.layout import PROVENANCE, fill_value
+from vasc.timeline.redo import (
+    DiskError,
+    Durability,
+    Pager,
+    is_being_written,
+    log_of,
+    writer_of,
+)
 
 COMPRESSION = 4
 """Level of deflate, from 0 to 9."""
-HEAD_BYTES = 52
-"""Bytes at the beginning of a file that tell how long it is."""
+IDENTITY_BYTES = 65536
+"""Bytes of the first provenance record by which a log knows its file."""
 
 
 class GrowingColumn:
@@ -52,13 +55,6 @@ class GrowingColumn:
         self.dtype: np.dtype[Any] = dataset.dtype
         self._memory_type = h5t.py_create(self.dtype)
         self.n_rows: int = dataset.shape[0]
-
-    @classmethod
-    def begin(cls, dataset: h5d.DatasetID) -> None:
-        """Make the index of an empty column, by a row that is dropped again."""
-        column = cls(dataset)
-        column.write(0, np.zeros((1, *dataset.shape[1:]), dtype=column.dtype))
-        column.cut(0)
 
     def write(self, start: int, rows: NDArray) -> None:
         """Write ``rows`` (contiguous, of the column's dtype) from row ``start`` on."""
@@ -90,16 +86,14 @@ class Store:
         The file, open for writing.
     """
 
-    def __init__(self, path: Path, file: h5py.File) -> None:
+    def __init__(self, path: Path, file: h5py.File, pager: Pager) -> None:
         self.path = path
         self._file = file
+        self._pager = pager
         self._marks: dict[str, GrowingColumn | CompressedColumn] = {}
-        # what a killed run left beyond the end of the file goes away first, so that HDF5
-        # tells its length right from now on
-        h5f.flush(file.id)
 
     @classmethod
-    def create(cls, path: Path) -> "Store":
+    def create(cls, path: Path, durability: Durability) -> "Store":
         """Make a new file; one that exists is an error.
 
         Raises
@@ -108,10 +102,46 @@ class Store:
             If the file exists or cannot be made.
         """
         try:
-            # h5py's default file structures: with the newest, no killed run is readable
-            return cls(path, h5py.File(path, "x"))
+            os.close(os.open(path, os.O_CREAT | os.O_EXCL, 0o666))
+            pager = Pager(path, is_logged=False, durability=durability)
+            # h5py's default file structures, which every version of HDF5 can read
+            return cls(path, h5py.File(pager, "w"), pager)
         except OSError as error:
             raise OutputError(f"{path}: cannot be created: {reason(error)}") from error
+
+    @classmethod
+    def open(cls, path: Path, durability: Durability) -> "Store":
+        """Open a file to continue it, with what waits in its log; nobody else can write it.
+
+        Raises
+        ------
+        BusyError
+            If another process writes it.
+        OSError
+            If it cannot be opened.
+        """
+        pager = Pager(path, durability=durability)
+        try:
+            return cls(path, h5py.File(pager, "r+"), pager)
+        except BaseException:
+            pager.abandon()
+            raise
+
+    @property
+    def file(self) -> h5py.File:
+        """The open file, to read it."""
+        return self._file
+
+    def begin(self) -> None:
+        """Make the log that of this file: from now on it may be written.
+
+        Raises
+        ------
+        OSError
+            If the log cannot be written.
+        """
+        first = self._file[PROVENANCE].id.get_chunk_info(0)
+        self._pager.identify(first.byte_offset, min(first.size, IDENTITY_BYTES))
 
     def add_group(self, name: str, attributes: Mapping[str, Any]) -> None:
         """Make a group with attributes."""
@@ -159,22 +189,12 @@ class Store:
             creation.set_shuffle()
             creation.set_deflate(COMPRESSION)
             creation.set_fletcher32()
-        dataset = self._make_column(name, h5t.py_create(dtype), column.shape, creation)
-        self._describe(dataset, attributes)
-
-    def add_column_like(self, name: str, other: h5py.Dataset) -> None:
-        """Make an empty column like that of another file, with its attributes."""
-        creation = other.id.get_create_plist()
-        dataset = self._make_column(name, other.id.get_type(), other.shape[1:], creation)
-        self._describe_like(dataset, other)
-
-    def add_group_like(self, name: str, other: h5py.Group) -> None:
-        """Make a group like that of another file, with its attributes and no members."""
-        self._describe_like(self._file.require_group(name), other)
-
-    def copy(self, name: str, other: h5py.Dataset) -> None:
-        """Copy a dataset of another file, with its attributes."""
-        h5o.copy(other.id, b".", self._file.id, name.encode())
+        space = h5s.create_simple((0, *column.shape), (h5s.UNLIMITED, *column.shape))
+        kind = h5t.py_create(dtype)
+        dataset = h5d.create(self._file.id, name.encode(), kind, space, dcpl=creation)
+        if is_compressed:
+            CompressedColumn.begin(dataset)
+        self._describe(h5py.Dataset(dataset), attributes)
 
     def column(self, name: str) -> GrowingColumn | CompressedColumn:
         """Open a column for appending, without a cache: rows go straight to the file."""
@@ -184,56 +204,57 @@ class Store:
         return CompressedColumn(dataset) if _has_filters(dataset) else GrowingColumn(dataset)
 
     def mark(self, name: str, value: int) -> None:
-        """Set a mark, the only kind of value that is rewritten, and bring it to the file."""
+        """Set a mark, the only kind of value that is rewritten."""
         column = self._marks.get(name) or self._marks.setdefault(name, self.column(name))
         column.write(0, np.array([value], dtype=column.dtype))
-        self.flush()
 
-    def flush(self) -> None:
-        """Hand everything written so far to the operating system."""
-        self._state_end()
+    def commit(self) -> None:
+        """Let all that was written so far be part of the file, whatever happens from now on.
+
+        Raises
+        ------
+        OSError
+            If it cannot be; the file stays as it was.
+        """
         h5f.flush(self._file.id)
+        self._pager.commit()
 
     def close(self) -> None:
-        """Close the file; closing twice is fine."""
-        self._file.close()
+        """Commit what is left and close the file; closing twice is fine.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be written; its log then holds what it lacks.
+        """
+        try:
+            if self._file:
+                self._file.close()
+                self._pager.commit()
+        finally:
+            self._pager.release()
+
+    def give_up(self) -> None:
+        """Close the file as its last commit left it; closing twice is fine."""
+        # into memory, which is dropped
+        with contextlib.suppress(OSError, RuntimeError):
+            self._file.close()
+        with contextlib.suppress(OSError):
+            self._pager.release()
+
+    def abandon(self) -> None:
+        """Close the file as it is on the disk: it is none that may be written."""
+        with contextlib.suppress(OSError, RuntimeError):
+            self._file.close()
+        self._pager.abandon()
 
     @contextlib.contextmanager
-    def writing(self) -> Iterator[None]:
-        """Turn what goes wrong while writing into one clear error."""
+    def writing(self, kept: str = "") -> Iterator[None]:
+        """Turn what goes wrong while writing into one clear error, which ends in ``kept``."""
         try:
             yield
         except (OSError, RuntimeError) as error:
-            raise OutputError(f"{self.path}: cannot be written: {reason(error)}") from error
-
-    def _state_end(self) -> None:
-        """Let the file be as long, and say so, as it is after the next flush."""
-        if sys.platform == "win32":
-            return
-        handle: int = self._file.id.get_vfd_handle()
-        stated = _stated_end(os.pread(handle, HEAD_BYTES, 0))
-        end = self._file.id.get_filesize()
-        if stated is None or stated.end >= end:
-            return
-        if os.fstat(handle).st_size < end:
-            os.ftruncate(handle, end)
-        os.pwrite(handle, end.to_bytes(8, "little"), stated.offset)
-
-    def _make_column(
-        self, name: str, kind: h5t.TypeID, row_shape: tuple[int, ...], creation: h5p.PropDCID
-    ) -> h5py.Dataset:
-        """Make an empty column that has its index already."""
-        space = h5s.create_simple((0, *row_shape), (h5s.UNLIMITED, *row_shape))
-        dataset = h5d.create(self._file.id, name.encode(), kind, space, dcpl=creation)
-        (CompressedColumn if _has_filters(dataset) else GrowingColumn).begin(dataset)
-        return h5py.Dataset(dataset)
-
-    @staticmethod
-    def _describe_like(target: h5py.HLObject, other: h5py.HLObject) -> None:
-        """Set the attributes that another object has."""
-        for key, value in other.attrs.items():
-            kept = other.attrs.get_id(key)
-            target.attrs.create(key, value, shape=kept.shape, dtype=kept.dtype)
+            raise DiskError(f"{self.path}: {_refusal(self.path, error)}{kept}") from error
 
     @staticmethod
     def _describe(target: h5py.HLObject, attributes: Mapping[str, Any]) -> None:
@@ -244,35 +265,6 @@ class Store:
             target.attrs.create(key, value)
 
 
-class _StatedEnd(NamedTuple):
-    """How long a file says it is, and where it says so."""
-
-    end: int
-    offset: int
-
-
-def stated_end(path: Path) -> int | None:
-    """Give how long a file says it is, None if it does not say so in the way vasc knows.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be read.
-    """
-    with path.open("rb") as file:
-        stated = _stated_end(file.read(HEAD_BYTES))
-    return None if stated is None else stated.end
-
-
-def _stated_end(head: bytes) -> _StatedEnd | None:
-    """Read the end that the first bytes of a file state, in the superblocks without a sum."""
-    # version 1 has four bytes more than version 0 before the addresses; both begin at 0
-    if len(head) < HEAD_BYTES or head[8] > 1 or head[13] != 8:
-        return None
-    offset = 40 + 4 * head[8]
-    return _StatedEnd(int.from_bytes(head[offset : offset + 8], "little"), offset)
-
-
 def _has_filters(dataset: h5d.DatasetID) -> bool:
     """Tell whether the chunks of a dataset pass through filters."""
     return dataset.get_create_plist().get_nfilters() > 0
@@ -281,6 +273,21 @@ def _has_filters(dataset: h5d.DatasetID) -> bool:
 def reason(error: BaseException) -> str:
     """Give the first line of an error's message, or its name."""
     return (str(error).splitlines() or [type(error).__name__])[0]
+
+
+def kept(path: Path, n_frames: int) -> str:
+    """Say what is kept of a run when the disk takes no more, and how to go on."""
+    if not n_frames:
+        return "; no step is kept"
+    return f"; all steps up to {n_frames - 1} are kept, and `vasc resume {path}` goes on from there"
+
+
+def _refusal(path: Path, error: BaseException) -> str:
+    """Say why a file cannot be written, and how much room its disk has."""
+    with contextlib.suppress(OSError):
+        free = shutil.disk_usage(path.absolute().parent)[2]
+        return f"cannot be written: {reason(error)} ({free / 1e6:,.1f} MB are free on its disk)"
+    return f"cannot be written: {reason(error)}"
 
 
 def check_output(path: Path, *, force: bool) -> None:
@@ -300,8 +307,8 @@ def check_output(path: Path, *, force: bool) -> None:
         return
     if not force:
         raise OutputError(f"{path}: exists already; use --force to replace it")
-    if _is_locked(path):
-        raise OutputError(f"{path}: is being written by another run")
+    if is_being_written(path, log_of(path)):
+        raise OutputError(f"{path}: is being written by {writer_of(log_of(path))}")
 
 
 def beside(path: Path) -> Path:
@@ -335,15 +342,3 @@ def publish(ready: Path, path: Path, *, force: bool) -> None:
         raise OutputError(f"{path}: exists already; use --force to replace it") from error
     except OSError as error:
         raise OutputError(f"{path}: cannot be created: {reason(error)}") from error
-
-
-def _is_locked(path: Path) -> bool:
-    """Tell whether a running writer holds the file."""
-    try:
-        h5py.File(path, "r+", locking=True).close()
-    except BlockingIOError:
-        return True
-    except OSError:
-        # not HDF5, or damaged: nobody writes it
-        return False
-    return False

@@ -9,9 +9,12 @@ import numpy as np
 
 from vasc.errors import OutlineError, TimelineError
 from vasc.timeline import areole_rules, guard, layout, motion_rules, rules, tissue_rules
+from vasc.timeline.checksums import damaged
+from vasc.timeline.opening import find_places
 from vasc.timeline.provenance import schema
 from vasc.timeline.reader import Timeline
 from vasc.timeline.rules import Findings, Record, bad_rows
+from vasc.timeline.storage import reason
 
 MAX_FINDINGS = 100
 """A file with more findings than this is not worth listing further."""
@@ -39,8 +42,12 @@ def validate(path: str | Path) -> list[str]:
                 findings.extend(found)
                 if found and stage is not STAGES[0]:
                     break
+            if not findings:
+                findings.extend(_checksums(record))
     except TimelineError as error:
         findings.append(f"[readable] {error}")
+    except guard.TRANSIENT as error:
+        findings.append(f"[readable] {path}: is damaged: {reason(error)}")
     if len(findings) > MAX_FINDINGS:
         findings[MAX_FINDINGS:] = ["... and more"]
     return findings
@@ -108,6 +115,16 @@ def _texts(record: Record) -> Findings:
         if missing:
             number = json.dumps(session.get("session"))
             yield f"[texts] {layout.PROVENANCE}: session {number} lacks {', '.join(missing)}"
+
+
+def _checksums(record: Record) -> Findings:
+    """Check that everything is what the last session that came to its end has recorded."""
+    opened, timeline = record.timeline.opened, record.timeline
+    starts = find_places(opened.path, record.file, opened.found, opened.read)
+    for name in damaged(
+        opened.path, record.file, opened.found, starts, opened.read, timeline.provenance
+    ):
+        yield f"[checksums] {name} is not what was recorded"
 
 
 def _stem(record: Record) -> Findings:

@@ -15,7 +15,7 @@ from vasc.domain import Blade, Tissue
 from vasc.errors import TimelineError
 from vasc.state import State, Tables
 from vasc.streams import Streams
-from vasc.timeline import layout, opening
+from vasc.timeline import checksums, layout, opening
 from vasc.timeline.compressed import CompressedColumn
 from vasc.timeline.creation import create_file
 from vasc.timeline.layout import (
@@ -28,12 +28,11 @@ from vasc.timeline.layout import (
     Motion,
     count_column,
     form_of,
-    motion_of,
 )
-from vasc.timeline.pending import FRAME_FIELDS, Pending
+from vasc.timeline.pending import FRAME_FIELDS, Pending, misfit
 from vasc.timeline.provenance import begin_session, end_session
-from vasc.timeline.salvage import mend
-from vasc.timeline.storage import GrowingColumn, Store
+from vasc.timeline.redo import Durability, undisturbed
+from vasc.timeline.storage import GrowingColumn, Store, kept
 
 BATCH_FRAMES = 64
 """Frames that are committed together at most."""
@@ -44,10 +43,10 @@ BATCH_SECONDS = 1.0
 class Recorder:
     """Records every state it observes; made by :meth:`create` or :meth:`resume`.
 
-    Rows stay in the run's own append-only tables until a batch is committed:
-    rows, flush, the frame counter, flush. Killed at any moment, a run lacks at
-    most its last batch. As a context manager it commits what was observed also
-    when the run fails or is interrupted.
+    Rows stay in the run's own append-only tables until a batch is committed, rows and
+    frame counter at once, through the redo log. Killed at any moment, a run lacks at
+    most its last batch. As a context manager it commits what was observed also when
+    the run fails or is interrupted.
 
     Attributes
     ----------
@@ -66,12 +65,14 @@ class Recorder:
         found: opening.Found,
         starts: Mapping[str, NDArray[np.int64]],
         session: int,
+        durability: Durability,
     ) -> None:
         self.path = store.path
         self.n_frames = found.n_frames
         self.phases: dict[str, float] = {}
         self._store = store
         self._session = session
+        self._most_frames = 1 if durability == Durability.STRICT else BATCH_FRAMES
         self._was_complete = found.is_complete
         self._is_finished = found.is_complete
         self._records_perceived = found.records_perceived
@@ -79,6 +80,10 @@ class Recorder:
         self._written = list(found.counts)
         self._committed = found.committed_rows(starts)
         self._placed = {name: int(rows[-1]) for name, rows in starts.items()}
+        # checksums of what is committed, and of what the next commit adds to it
+        self._sums: dict[str, int] = dict.fromkeys(found.growing_columns, 0)
+        self._next_sums: dict[str, int] = {}
+        self._found = found
         self._columns: dict[str, GrowingColumn | CompressedColumn] = {
             name: store.column(name) for name in found.growing_columns
         }
@@ -107,6 +112,7 @@ class Recorder:
         units: Mapping[str, str | float] | None = None,
         force: bool = False,
         record_perceived: bool = True,
+        durability: Durability = Durability.BATCH,
     ) -> Self:
         """Make a new timeline file, ready to record step 0.
 
@@ -140,6 +146,8 @@ class Recorder:
             Replace a file that exists.
         record_perceived : bool
             Record which nodes each source attracts.
+        durability : Durability
+            What a loss of power may take.
 
         Raises
         ------
@@ -168,20 +176,18 @@ class Recorder:
             stream_names=names,
             units={} if units is None else units,
             first_record=json.dumps(first),
+            durability=durability,
             force=force,
         )
-        store, found, starts, _ = opening.open_to_continue(Path(path))
-        return cls(store, found, starts, session=0)
+        store, found, starts, _ = opening.open_to_continue(Path(path), durability)
+        return cls(store, found, starts, 0, durability)
 
     @classmethod
-    def resume(cls, path: str | Path) -> Self:
+    def resume(cls, path: str | Path, *, durability: Durability = Durability.BATCH) -> Self:
         """Open a timeline to continue it, cut to its committed frames.
 
-        What a killed run wrote and did not commit is dropped, so that the
-        finished file holds the same rows as that of an undisturbed run. If it was
-        killed so that HDF5 can no longer write its file, what is committed is copied
-        to a new one that takes its place, and the provenance says so. The
-        states observed next must share tables filled by ``Timeline.tables``.
+        Commits that a killed run left in its log are replayed first. The finished file has
+        the rows of an undisturbed run, if states share tables filled by ``Timeline.tables``.
 
         Raises
         ------
@@ -191,17 +197,19 @@ class Recorder:
         OutputError
             If the file cannot be written.
         """
-        problem = mend(Path(path))
-        store, found, starts, session = opening.open_to_continue(Path(path))
-        try:
-            recorder = cls(store, found, starts, session=session)
-            with store.writing():
-                recorder._cut()
-                begin = begin_session(session, kind="resume", seed=found.seed)
-                recorder._add_record(begin if problem is None else {**begin, "salvaged": problem})
-        except BaseException:
-            store.close()
-            raise
+        place = Path(path)
+        with undisturbed():
+            store, found, starts, session = opening.open_to_continue(place, durability)
+            try:
+                recorder = cls(store, found, starts, session, durability)
+                recorder._sums = checksums.to_continue(place, store.file, found, starts)
+                with store.writing(kept(recorder.path, recorder.n_frames)):
+                    recorder._cut()
+                    recorder._add_record(begin_session(session, kind="resume", seed=found.seed))
+                    store.commit()
+            except BaseException:
+                store.give_up()
+                raise
         return recorder
 
     def observe(self, state: State, streams: Streams) -> None:
@@ -229,7 +237,7 @@ class Recorder:
         # come too late, the batch goes out now; step 0 always does
         next_age = 2.0 * started - self._latest - self._oldest
         self._latest = started
-        if len(pending) >= BATCH_FRAMES or next_age >= BATCH_SECONDS or state.step == 0:
+        if len(pending) >= self._most_frames or next_age >= BATCH_SECONDS or state.step == 0:
             self._commit()
         self._seconds += time.perf_counter() - started
 
@@ -252,11 +260,12 @@ class Recorder:
             return
         self._is_closed = True
         is_complete = self._is_finished if complete is None else complete
-        try:
-            if not self._is_broken:
-                self._finish(is_complete, outcome or ("complete" if is_complete else "stopped"))
-        finally:
-            self._store.close()
+        with undisturbed():
+            try:
+                if not self._is_broken:
+                    self._finish(is_complete, outcome or ("complete" if is_complete else "stopped"))
+            finally:
+                self._store.give_up()
 
     def __enter__(self) -> Self:
         return self
@@ -279,17 +288,9 @@ class Recorder:
         if self._is_closed:
             raise TimelineError(f"{self.path}: the recorder is closed")
         expected = self.n_frames + len(self._pending)
-        step, (motion, dimensions, cells) = state.step, self._form
-        if step != expected:
+        if (step := state.step) != expected:
             raise TimelineError(f"{self.path}: step {step} came, step {expected} was expected")
-        if motion_of(state) != motion:
-            problem = f"is {motion_of(state)}, the file is {motion}"
-        elif state.dimensions != dimensions:
-            problem = f"has {state.dimensions} dimensions, the file {dimensions}"
-        else:
-            own = form_of(state)[2]
-            problem = "has {} cells and {} walls, the file {} and {}".format(*own, *cells)
-        raise TimelineError(f"{self.path}: step {step} {problem}")
+        raise TimelineError(f"{self.path}: step {step} {misfit(state, self._form)}")
 
     def _commit(self) -> None:
         """Write the pending frames and their rows; only then the frame counter."""
@@ -298,36 +299,35 @@ class Recorder:
         counts = np.array([frame.counts for frame in self._pending], dtype=np.int64)
         if not self._records_perceived:
             counts[:, list(TABLES).index("perceived")] = 0
-        # broken until done: what HDF5 does after a failed write is not to be trusted.
-        # An interrupt is no failed write, and the same rows can be written again.
+        # broken until done; an interrupt is no failed write, and the rows can be written again
         self._is_broken = True
         try:
-            with self._store.writing():
+            with undisturbed(), self._store.writing(kept(self.path, self.n_frames)):
                 self._write_rows(self._tables, counts[-1].tolist())
                 placed = self._write_places()
                 self._write_fields()
                 self._write_frames(counts)
                 if self._was_complete:
                     self._store.mark(COMPLETE, 0)
-                    self._was_complete = False
-                self._store.flush()
                 self._store.mark(COMMITTED, self.n_frames + len(self._pending))
+                self._store.commit()
+                self._was_complete, self._is_broken = False, False
+                self._sums |= self._next_sums
+                self.n_frames, self._written = (
+                    self.n_frames + len(self._pending),
+                    counts[-1].tolist(),
+                )
+                self._placed, self._pending = placed, []
         except KeyboardInterrupt:
             self._is_broken = False
             raise
-        n_frames, written = self.n_frames + len(self._pending), counts[-1].tolist()
-        # no call in between, so that no interrupt leaves half of this done
-        self._is_broken, self.n_frames, self._written = False, n_frames, written
-        self._placed, self._pending = placed, []
 
     def _write_rows(self, tables: Tables, counts: list[int]) -> None:
         """Write the rows of every table that are new since the last commit."""
         for table, start, stop in zip(TABLES, self._written, counts, strict=True):
             if stop > start:
                 for name in TABLES[table]:
-                    self._columns[f"{table}/{name}"].write(
-                        start, tables[table].view(name, start, stop)
-                    )
+                    self._write(f"{table}/{name}", start, tables[table].view(name, start, stop))
 
     def _write_frames(self, counts: NDArray[np.int64]) -> None:
         """Write the pending rows of ``frames``."""
@@ -341,55 +341,60 @@ class Recorder:
             **{count_column(table): counts[:, k] for k, table in enumerate(TABLES)},
         }
         for name, rows in values.items():
-            column = self._columns[f"frames/{name}"]
-            column.write(self.n_frames, np.ascontiguousarray(rows, dtype=column.dtype))
+            self._write(f"frames/{name}", self.n_frames, rows)
 
     def _write_places(self) -> dict[str, int]:
         """Write the explicit positions of the pending frames; the rows there are then."""
         placed = dict(self._placed)
         for name, start in self._placed.items():
-            column = self._columns[f"{MOTION}/{name}"]
             rows = np.concatenate([getattr(frame.places, name) for frame in self._pending])
-            column.write(start, np.ascontiguousarray(rows, dtype=column.dtype))
+            self._write(f"{MOTION}/{name}", start, rows)
             placed[name] = start + len(rows)
         return placed
 
     def _write_fields(self) -> None:
         """Write the fields of the pending frames."""
         for path in (one for one in self._columns if one.startswith(f"{FIELDS}/")):
-            name, column = path.partition("/")[2], self._columns[path]
+            name = path.partition("/")[2]
             rows = np.concatenate([getattr(frame.fields, name) for frame in self._pending])
             start = self.n_frames * (len(rows) // len(self._pending))
-            column.write(start, np.ascontiguousarray(rows, dtype=column.dtype))
+            self._write(path, start, rows)
+
+    def _write(self, name: str, start: int, rows: Any) -> None:
+        """Write rows of a column behind those that are committed."""
+        rows = np.ascontiguousarray(rows, dtype=self._columns[name].dtype)
+        self._columns[name].write(start, rows)
+        self._next_sums[name] = checksums.of_rows(rows, self._sums[name])
 
     def _cut(self) -> None:
         """Drop rows that were written and not committed."""
         for name, n_rows in self._committed.items():
             self._columns[name].cut(n_rows)
-        self._store.flush()
 
     def _add_record(self, record: Mapping[str, Any]) -> None:
         """Append a provenance record."""
         column = self._store.column(PROVENANCE)
         rows = np.array([json.dumps(record).encode()], dtype=column.dtype)
         column.write(column.n_rows, rows)
-        self._store.flush()
 
     def _finish(self, is_complete: bool, outcome: str) -> None:
-        """Commit the rest, then the provenance, then the completion mark."""
+        """Commit the rest, then the provenance with the completion mark."""
         started = time.perf_counter()
         self._commit()
         ended = time.perf_counter()
         self.phases["record"] = self._seconds + ended - started
         self.phases["total"] = ended - self._opened
-        with self._store.writing():
+        with self._store.writing(kept(self.path, self.n_frames)):
+            sums = self._sums | checksums.of_fixed(self.path, self._store.file, self._found)
             self._add_record(
                 end_session(
                     self._session,
                     outcome=outcome,
                     last_step=self.n_frames - 1,
                     wall_seconds=self.phases,
+                    checksums=checksums.written(sums),
                 )
             )
             if is_complete:
                 self._store.mark(COMPLETE, 1)
+            self._store.close()

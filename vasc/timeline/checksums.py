@@ -1,0 +1,149 @@
+"""Checksums of what a session has recorded: they tell damage from what merely looks odd."""
+
+import math
+import zlib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from vasc.errors import TimelineError
+from vasc.timeline import guard, layout
+from vasc.timeline.layout import TABLES, TEXTS, count_column
+from vasc.timeline.opening import Found, read_records
+from vasc.timeline.provenance import sessions
+from vasc.timeline.storage import reason
+
+SLICE_BYTES = 4 << 20
+"""About how much is read at once."""
+ATTRIBUTES = "attributes"
+"""Under which name the attributes of the file and of its units are summed."""
+
+Read = Callable[[str, int, int], NDArray]
+"""Reads rows of a growing column, from one row to another."""
+
+
+def of_rows(rows: NDArray, before: int = 0) -> int:
+    """Give the CRC-32 of rows that follow on others."""
+    return zlib.crc32(np.ascontiguousarray(rows).view(np.uint8).reshape(-1).data, before)
+
+
+def of_columns(found: Found, starts: Mapping[str, NDArray[np.int64]], read: Read) -> dict[str, int]:
+    """Give the CRC-32 of the committed rows of every growing column."""
+    sums = {}
+    for name, n_rows in found.committed_rows(starts).items():
+        column = found.growing_columns[name]
+        row_bytes = np.dtype(column.dtype).itemsize * math.prod(column.shape)
+        size, total = max(1, SLICE_BYTES // max(1, row_bytes)), 0
+        for first in range(0, n_rows, size):
+            total = of_rows(read(name, first, min(first + size, n_rows)), total)
+        sums[name] = total
+    return sums
+
+
+def of_fixed(path: Path, file: h5py.File, found: Found) -> dict[str, int]:
+    """Give the CRC-32 of everything that never changes: arrays, texts, attributes.
+
+    Raises
+    ------
+    TimelineError
+        If a part is missing.
+    """
+    sums = {}
+    for name in (*TEXTS, *layout.static_columns(found.dimensions, found.has_tissue)):
+        values = guard.open_dataset(path, file, name)[()]
+        sums[name] = of_rows(np.atleast_1d(np.asarray(values)))
+    total = 0
+    for item in (file, guard.open_item(path, file, layout.UNITS)):
+        for name in sorted(item.attrs):
+            total = zlib.crc32(name.encode(), total)
+            total = of_rows(np.atleast_1d(np.asarray(item.attrs[name])), total)
+    return sums | {ATTRIBUTES: total}
+
+
+def written(sums: Mapping[str, int]) -> dict[str, str]:
+    """Give sums as a provenance record holds them."""
+    return {name: f"{total:08x}" for name, total in sums.items()}
+
+
+def damaged(
+    path: Path,
+    file: h5py.File,
+    found: Found,
+    starts: Mapping[str, NDArray[np.int64]],
+    read: Read,
+    known: Iterable[Mapping[str, Any]],
+) -> list[str]:
+    """Name what differs from what the last session that came to its end has noted.
+
+    Parameters
+    ----------
+    path, file : Path, h5py.File
+        The open file.
+    found, starts : Found, mapping
+        What is committed, and where steps begin in the columns of an explicit motion.
+    read : callable
+        Reads rows.
+    known : iterable of mapping
+        The sessions that the provenance tells of.
+
+    Returns
+    -------
+    list of str
+        Names of columns, arrays and texts; empty if nothing differs, or nothing was noted.
+    """
+    noted = [one for one in known if isinstance(one.get("checksums"), Mapping)]
+    if not noted:
+        return []
+    expected, last_step = noted[-1]["checksums"], noted[-1].get("last_step")
+    if not isinstance(last_step, int) or not -1 <= last_step < found.n_frames:
+        return ["frames"]
+    then, begun = _at(found, starts, last_step, read)
+    sums = written(of_columns(then, begun, read) | of_fixed(path, file, found))
+    return sorted(name for name in {*sums, *expected} if sums.get(name) != expected.get(name))
+
+
+def _at(
+    found: Found, starts: Mapping[str, NDArray[np.int64]], last_step: int, read: Read
+) -> tuple[Found, dict[str, NDArray[np.int64]]]:
+    """Give what was committed once a step was."""
+    counts = found.counts
+    if last_step + 1 < found.n_frames:
+        counts = tuple(
+            int(read(f"frames/{count_column(table)}", last_step, last_step + 1)[0])
+            if last_step >= 0
+            else 0
+            for table in TABLES
+        )
+    begun = {name: rows[: last_step + 2] for name, rows in starts.items()}
+    return replace(found, n_frames=last_step + 1, counts=counts), begun
+
+
+def to_continue(
+    path: Path, file: h5py.File, found: Found, starts: Mapping[str, NDArray[np.int64]]
+) -> dict[str, int]:
+    """Give the checksums of what is committed in a file, if that is what was recorded.
+
+    Raises
+    ------
+    TimelineError
+        If it is not.
+    """
+
+    def read(name: str, start: int, stop: int) -> NDArray:
+        return file[name][start:stop]
+
+    try:
+        known = sessions(read_records(path, file))
+        names = damaged(path, file, found, starts, read, known)
+        if not names:
+            return of_columns(found, starts, read)
+    except guard.TRANSIENT as error:
+        raise TimelineError(f"{path}: is damaged: {reason(error)}") from error
+    raise TimelineError(
+        f"{path}: is damaged: {names[0]} is not what was recorded; `vasc show --check` tells more"
+    )
