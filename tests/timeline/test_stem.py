@@ -196,7 +196,7 @@ def experiment():
             seed=SEED,
             stream_names=NAMES,
             units=None,
-            record=SimpleNamespace(perceived="nodes"),
+            record=SimpleNamespace(perceived="nodes", durability="batch"),
         ),
         model=StemModel,
     )
