@@ -13,6 +13,7 @@ from vasc import experiment as experiments
 from vasc.cli.program import main
 from vasc.errors import TimelineError, VascError
 from vasc.experiment import Difference
+from vasc.models.base import RecordParameters
 from vasc.network import Origin
 from vasc.render import draw_leaf
 from vasc.sources import Cause
@@ -196,7 +197,7 @@ def experiment():
             seed=SEED,
             stream_names=NAMES,
             units=None,
-            record=SimpleNamespace(perceived="nodes", durability="batch"),
+            record=RecordParameters(perceived="nodes"),
         ),
         model=StemModel,
     )
