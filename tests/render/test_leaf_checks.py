@@ -134,3 +134,14 @@ def test_an_open_check_is_neither_framed_nor_counted_as_failed(suite):
     assert "honeycomb: none" in [text.get_text() for text in ax.get_yticklabels()]
     sheet = draw_leaf_checks(suite | {"checks": checks})
     assert "cannot be decided" in sheet.get_suptitle()
+
+
+def test_densities_are_drawn_over_what_the_check_asks(suite):
+    wider = [
+        one | ({"low": 0.0, "high": 0.4} if one["what"].startswith("minor vein") else {})
+        for one in suite["checks"]
+    ]
+    (ax,) = draw_leaf_check(suite | {"checks": wider}, 15).axes
+    (band,) = ax.collections
+    heights = band.get_paths()[0].vertices[:, 1]
+    assert (heights.min(), heights.max()) == pytest.approx((0.6, 1.4))

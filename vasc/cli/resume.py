@@ -64,7 +64,8 @@ def _picture(path: Path, figure: Path | None, is_stem: bool, *, force: bool) -> 
         If the picture that is asked for cannot be written, or the config refers to the file.
     """
     from vasc.cli.failures import complain
-    from vasc.cli.run import OTHER_FIGURE, check_figure, check_not_needed
+    from vasc.cli.outputs import check_not_needed, check_picture
+    from vasc.cli.run import OTHER_FIGURE
 
     picture = path.with_suffix(".png") if figure is None else figure
     check_not_needed(path, picture, OTHER_FIGURE)
@@ -76,7 +77,7 @@ def _picture(path: Path, figure: Path | None, is_stem: bool, *, force: bool) -> 
             )
             return None
         force = True
-    check_figure(picture, force=force)
+    check_picture(picture, force=force)
     return picture
 
 

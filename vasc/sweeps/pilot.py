@@ -77,6 +77,11 @@ def estimate(sweep: Sweep, n_runs: int, n_workers: int) -> Estimate:
         Runs that are missing.
     n_workers : int
         Workers that will share them.
+
+    Returns
+    -------
+    Estimate
+        Without times if the first run fails; ``error`` says how.
     """
     with TemporaryDirectory(prefix="vasc-") as name:
         folder = SweepFolder(Path(name) / "pilot")
