@@ -50,10 +50,11 @@ def extended(tmp_path_factory):
         path.write_text(block)
     (project,) = (block for block in blocks("extending.md", "toml") if "[project]" in block)
     described = tomllib.loads(project)["project"]
-    record = folder / "slow_leaves-1.0.dist-info"
+    name, version = described["name"], described["version"]
+    record = folder / f"slow_leaves-{version}.dist-info"
     record.mkdir()
     (record / "METADATA").write_text(
-        f"Metadata-Version: 2.1\nName: {described['name']}\nVersion: 1.0\n"
+        f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\n"
     )
     lines = []
     for group, points in described["entry-points"].items():
@@ -77,6 +78,20 @@ def test_a_model_of_your_own_runs_and_verifies(extended):
     assert lengths == pytest.approx([40.0, 41.6, 43.168])
     verified = vasc(extended, "verify", "slow.h5")
     assert verified.returncode == 0, verified.stdout + verified.stderr
+
+
+def test_packages_that_pages_show_have_what_pip_asks_for():
+    pages = [*(ROOT / "docs").rglob("*.md"), ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
+    projects = {
+        page.name: tomllib.loads(block)["project"]
+        for page in pages
+        for block in blocks(page, "toml")
+        if "[project]" in block
+    }
+    assert "extending.md" in projects
+    for page, project in projects.items():
+        given = {"name", "version"} & project.keys()
+        assert given == {"name", "version"}, page
 
 
 def test_a_model_of_your_own_is_checked_like_ours(extended):
