@@ -100,6 +100,25 @@ def test_an_areole_that_was_found_is_told_like_one_that_was_recorded(leaf, capsy
     assert (told["birth"], told["segment"]) == (tree.births[0], tree.segments[0])
 
 
+def test_lists_say_what_they_hold(leaf, capsys):
+    def shown(*arguments):
+        lines = output(["lineage", leaf, *arguments], capsys).splitlines()
+        return dict(line.split(maxsplit=1) for line in lines)
+
+    def told(*arguments):
+        return json.loads(output(["lineage", leaf, *arguments, "--json"], capsys))
+
+    assert told("--areole", "0")["ancestors"] == []
+    assert shown("--areole", "0")["ancestors"] == "none"
+    seed, tip = told("--node", "0"), told("--node", "1")
+    assert (seed["ancestors"], tip["ancestors"]) == ([], [0])
+    assert shown("--node", "0")["ancestors"] == "none"
+    assert shown("--node", "1")["ancestors"] == "node 0"
+    n_nodes = len(seed["descendants"])
+    assert shown("--node", "0")["descendants"].startswith(f"{n_nodes:,} nodes: 1, 2, 3, ")
+    assert ", " in shown("--node", "0")["position_at_birth"]
+
+
 @pytest.mark.parametrize(
     ("arguments", "part"),
     [
