@@ -154,6 +154,8 @@ def test_a_stem_has_tables_of_its_veins_and_no_areoles(tmp_path, capsys):
     for option in (["--genealogy"], ["--loop", "0"], ["--areole", "0"]):
         assert main(["lineage", run, *option]) == 2
         assert "is a stem" in capsys.readouterr().err
+    assert main(["lineage", run, "--at", "0,10"]) == 2
+    assert "a place of two numbers is one of a blade" in capsys.readouterr().err
 
 
 def test_the_median_life_stands_below_the_life_table(leaf, capsys):
