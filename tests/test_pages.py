@@ -53,9 +53,7 @@ def extended(tmp_path_factory):
     name, version = described["name"], described["version"]
     record = folder / f"slow_leaves-{version}.dist-info"
     record.mkdir()
-    (record / "METADATA").write_text(
-        f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\n"
-    )
+    (record / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\n")
     lines = []
     for group, points in described["entry-points"].items():
         lines += [f"[{group}]", *(f"{name} = {target}" for name, target in points.items())]

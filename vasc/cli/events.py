@@ -31,7 +31,7 @@ def events(
 ) -> None:
     """List the events of a run: sources placed, veins joined, loops closed, ...
 
-    Subject and object are rows of the tables of the run. They are, by kind (-: none):
+    Subject and object are rows of the tables of the run. They are, by kind:
 
     \b
     source_placed       source / -
@@ -50,9 +50,10 @@ def events(
     areole_born         areole / segment that closed it
     areole_split        areole / segment that divides it
     vortex_formed       cell / -
-    run_finished        reason: 0 no_sources, 1 nothing_pulled, 2 livelock, 3 step_limit, 4 at_rest / -
+    run_finished        reason / -: 0 no_sources, 1 nothing_pulled, 2 livelock, 3 step_limit,
+                        4 at_rest
     growth_ended, mesophyll_event, canals_settled, canals_unsettled    - / -
-    """
+    """  # noqa: D301 - the mark keeps the lines apart
     from vasc.cli.printing import print_json, print_table
     from vasc.timeline import Timeline
 
