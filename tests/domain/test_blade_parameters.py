@@ -82,6 +82,19 @@ def test_each_part_may_be_seeded_at_its_lowest_point(tmp_path):
         blade(tmp_path, file="ab.wkt", attachment=(4.0, 0.0))
 
 
+def test_several_outlines_in_a_file_are_told_in_its_own_coordinates(tmp_path):
+    paths = ("M10 190 L60 190 L35 10 Z M30 150 L40 150 L35 140 Z", "M110 190 L160 190 L135 20 Z")
+    drawn = "".join(f'<path d="{path}"/>' for path in paths)
+    (tmp_path / "two.svg").write_text(f'<svg xmlns="http://www.w3.org/2000/svg">{drawn}</svg>')
+    with pytest.raises(OutlineError) as error:
+        blade(tmp_path, file="two.svg")
+    assert str(error.value).startswith(
+        'domain.file = "two.svg": the file has 2 outlines, from (10, 10) to (60, 190),'
+        " from (110, 20) to (160, 190); draw one path, or join them;"
+    )
+    assert len(blade(tmp_path, file="two.svg", seeds="lowest").rings) == 3
+
+
 def test_smoothing_passes_through_every_corner_without_kinks():
     angles = np.arange(9) * 2.0 * np.pi / 9
     corners = np.stack([np.sin(angles), 1.0 - np.cos(angles)], axis=1)
