@@ -79,7 +79,7 @@ def test_each_part_may_be_seeded_at_its_lowest_point(tmp_path):
     found = blade(tmp_path, file="ab.wkt", attachment=(4.0, 0.0), seeds="lowest", length=5.0)
     np.testing.assert_allclose(found.seeds, [[-4.0, 0.0], [3.0, 0.0]], atol=1e-9)
     with pytest.raises(OutlineError, match=r"^domain.seeds: none in the part \(ring 2\)"):
-        blade(tmp_path, file="ab.wkt", attachment=(4.0, 0.0))
+        blade(tmp_path, file="ab.wkt", attachment=(4.0, 0.0), seeds=[(0.0, 0.0)])
 
 
 def test_several_outlines_in_a_file_are_told_in_its_own_coordinates(tmp_path):
