@@ -179,6 +179,20 @@ def test_the_tutorial_names_what_there_is():
     assert set(copied) <= names
 
 
+def test_every_extra_is_on_the_page_of_commands():
+    table = (ROOT / "docs" / "commands.md").read_text().partition("## Extras")[2]
+    told = re.findall(r"^\| `(\w+)` \|", table, flags=re.MULTILINE)
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert sorted(told) == sorted(project["optional-dependencies"])
+
+
+def test_pages_tell_one_way_to_install_an_extra():
+    pages = [*(ROOT / "docs").rglob("*.md"), ROOT / "docs" / "tutorial.ipynb"]
+    told = {page: re.findall(r"pip install .{0,2}\.\[\w+\]", page.read_text()) for page in pages}
+    others = {page.name: found for page, found in told.items() if found}
+    assert others == {"commands.md": ['pip install ".[video]']}
+
+
 def test_every_verb_is_on_the_page_of_commands():
     text = "".join(blocks("../README.md", "sh") + blocks("commands.md", "sh"))
     verbs = set(re.findall(r"(?:^|&& )vasc ([a-z]+)", text, flags=re.MULTILINE))
