@@ -1,7 +1,9 @@
 """Run, resume and verify as functions: what observers see, where a run stops, what differs."""
 
 import json
+import os
 import shutil
+import signal
 
 import h5py
 import numpy as np
@@ -140,11 +142,15 @@ def test_a_run_that_breaks_keeps_what_it_made(error, tmp_path, whole):
     assert_same(path, whole)
 
 
-def test_a_run_killed_before_its_first_step_is_resumed(tmp_path, whole):
-    path = shutil.copy(whole, tmp_path / "a.h5")
-    with h5py.File(path, "r+") as file:
-        file["committed"][0] = 0
-        file["complete"][0] = 0
+def test_a_run_killed_before_its_first_step_is_resumed(tmp_path, whole, monkeypatch):
+    path = tmp_path / "a.h5"
+    child = os.fork()
+    if not child:
+        monkeypatch.setattr(
+            "vasc.timeline.Recorder.observe", lambda *_: os.kill(os.getpid(), signal.SIGKILL)
+        )
+        experiments.run(leaf(), path)
+    os.waitpid(child, 0)
     with pytest.raises(TimelineError, match="no step"):
         experiments.verify(path)
     watcher = Watcher()

@@ -5,6 +5,7 @@ import pytest
 from reference.networks import PlainMoment, network, sources, square_blade
 
 from vasc.analysis import WidthParameters, murray_radii, run_widths
+from vasc.analysis.run_widths import widths_at, widths_of
 
 FORK = [(0, 1), (1, 2), (1, 3)]
 
@@ -29,3 +30,20 @@ def test_by_elongation_old_veins_are_wide():
     assert run_widths(moments().__getitem__, 0, asked) == pytest.approx([6.0] * 3)
     # all that was there has doubled its length and its width; the new branch is as wide as its tip
     assert run_widths(moments().__getitem__, 1, asked) == pytest.approx([12.0, 12.0, 12.0, 6.0])
+
+
+@pytest.mark.parametrize("rule", ["murray", "elongation"])
+def test_widths_at_several_steps_are_those_of_each(rule):
+    asked = WidthParameters(rule=rule, tip_radius=3.0)
+    # a step that is asked for twice is given twice
+    steps = [0, 1, 1]
+    found = list(widths_at(moments().__getitem__, steps, asked))
+    assert len(found) == len(steps)
+    for step, (moment, widths) in zip(steps, found, strict=True):
+        assert moment.network.n_segments == len(widths)
+        assert np.array_equal(widths, run_widths(moments().__getitem__, step, asked))
+
+
+def test_a_config_without_widths_asks_for_the_default_ones():
+    assert widths_of({}) == widths_of({"widths": {}}) == WidthParameters()
+    assert widths_of({"widths": {"exponent": 3.0}}).exponent == 3.0

@@ -186,7 +186,7 @@ def test_what_cannot_be_run_is_refused_by_its_key(canals, capsys, change, words)
 
 def test_a_tissue_that_the_disk_has_no_room_for_is_refused(canals, capsys, monkeypatch):
     monkeypatch.setattr("shutil.disk_usage", lambda path: (10**9, 10**9, 60_000))
-    assert main(["run", "canals.toml", "--no-figure"]) == 2
+    assert main(["run", "canals.toml", "--no-figure", "--large"]) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert line == (
         "canals.h5: the disk has no room for it: each step of domain, 117 cells and 212 walls,"

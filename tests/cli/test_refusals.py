@@ -87,7 +87,7 @@ def test_a_place_that_takes_no_file_is_named(leaf, capsys, monkeypatch, suffix):
         raise OSError(30, "Read-only file system", ".a.temporary.new")
 
     monkeypatch.setattr(Path, "write_bytes", refuse)
-    monkeypatch.setattr(Path, "write_text", refuse)
+    monkeypatch.setattr("os.fsync", refuse)
     verb = "render" if suffix == "png" else "export"
     said = complaint([verb, leaf, "-o", f"a.{suffix}"], capsys)
     assert said == f"a.{suffix}: cannot be written: Read-only file system\n"

@@ -1,5 +1,7 @@
 """Stems and tissues are no larger than foreseen; what is large is told before it begins."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from reference.stem_run import STEM
@@ -27,6 +29,20 @@ gain = 1e3
 [stop]
 steps = {steps}
 """
+DOUBLING = """kind = "gottlieb"
+doublings = 4
+space = 8.0
+longest = 2.0
+[domain]
+shape = "ovate"
+length = 12.0
+"""
+DOUBLINGS = {
+    "closest": DOUBLING,
+    "in reach": DOUBLING.replace("longest", "reach = 40.0\nlongest"),
+    "few spaces": DOUBLING.replace("space = 8.0", "space = 30.0"),
+    "short segments": DOUBLING.replace("longest = 2.0", "longest = 0.5"),
+}
 STEMS = {
     "small": STEM,
     "wide": STEM.replace("radius = 12.0", "radius = 60.0").replace("= 8", "= 20"),
@@ -50,6 +66,22 @@ def test_a_stem_is_no_larger_than_foreseen_and_no_less_than_a_twentieth(name, tm
     assert summary.nodes <= size.nodes <= 20 * summary.nodes
     assert summary.sources_placed <= size.sources
     assert file <= size.file <= 20 * file
+
+
+@pytest.mark.parametrize("name", DOUBLINGS)
+def test_straight_veins_are_no_more_than_foreseen_and_no_less_than_a_twentieth(name, tmp_path):
+    experiment = load_text(DOUBLINGS[name])
+    size = foreseen(experiment.parameters, experiment.model())
+    summary = experiments.run(experiment, tmp_path / "run.h5")
+    file = (tmp_path / "run.h5").stat().st_size
+    assert summary.nodes <= size.nodes <= 20 * summary.nodes
+    assert summary.sources_placed <= size.sources
+    assert file <= size.file <= 20 * file
+
+
+def test_of_a_model_with_a_sentence_of_its_own_nothing_is_foreseen_but_the_program():
+    size = foreseen(SimpleNamespace(kind="own"), object())
+    assert (size.nodes, size.sources, size.is_large) == (0, 0, False)
 
 
 def test_a_stem_of_more_primordia_or_longer_internodes_is_larger():

@@ -10,7 +10,7 @@ import pytest
 import shapely
 from svg.path import parse_path
 
-from vasc.cli.compare import flattened
+from vasc.analysis.statistics import flattened
 from vasc.cli.stats import measured
 from vasc.domain.readers import read_outline
 from vasc.domain.svg import rings_of_drawing

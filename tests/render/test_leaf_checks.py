@@ -115,3 +115,14 @@ def test_the_symbol_of_a_largest_number_is_whole(suite, number):
                 assert places.max() + reach * points <= right
                 n_drawn += 1
     assert n_drawn
+
+
+def test_densities_are_drawn_over_what_the_check_asks(suite):
+    wider = [
+        one | ({"low": 0.0, "high": 0.4} if one["what"].startswith("minor vein") else {})
+        for one in suite["checks"]
+    ]
+    (ax,) = draw_leaf_check(suite | {"checks": wider}, 15).axes
+    (band,) = ax.collections
+    heights = band.get_paths()[0].vertices[:, 1]
+    assert (heights.min(), heights.max()) == pytest.approx((0.6, 1.4))

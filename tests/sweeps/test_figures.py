@@ -13,10 +13,10 @@ from scipy import stats
 
 from vasc.sweeps import SweepFolder, write_table
 from vasc.sweeps.curves import draw_curves, intervals
-from vasc.sweeps.folder import write_whole
 from vasc.sweeps.picture import draw_sweep
 from vasc.sweeps.plan import PlannedRun
 from vasc.sweeps.work import result_of
+from vasc.whole_files import write_whole
 
 MEASURES = ["stats.areoles", "check.connectivity.pair", "summary.complete", "summary.stop_reason"]
 
@@ -54,20 +54,6 @@ def test_the_table_is_made_again_from_the_results(tmp_path, short):
     (tmp_path / "out" / "results.csv").unlink()
     made = write_table(SweepFolder(tmp_path / "out"))
     assert made.read_bytes() == (short / "results.csv").read_bytes()
-
-
-def test_a_file_that_cannot_be_written_is_as_it_was(tmp_path, monkeypatch):
-    path = tmp_path / "a.json"
-    write_whole(path, "old")
-
-    def fail(*arguments):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("os.fsync", fail)
-    with pytest.raises(OSError, match="No space"):
-        write_whole(path, "new")
-    assert path.read_text() == "old"
-    assert [one.name for one in tmp_path.iterdir()] == ["a.json"]
 
 
 def test_intervals_hold_the_mean_as_student_has_it():

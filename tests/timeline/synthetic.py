@@ -5,11 +5,14 @@ holds for it holds for the models: equal seeds give equal rows, also after a res
 """
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
+import pytest
 from scipy.spatial import ConvexHull
 
+from vasc import experiment
 from vasc.domain import Blade
 from vasc.domain.tilings import rectangular
 from vasc.events import EventKind, StopReason
@@ -380,6 +383,30 @@ def record(
             if state.step == stop_after:
                 recorder.close(complete=False)
                 return
+
+
+def recorded_states(path: Path, last_step: int, kind: type[SyntheticRun]) -> list[State]:
+    """Record a run, and give every state of it."""
+    streams, shown = Streams(SEED, NAMES), []
+    with create(path, kind) as recorder:
+        for state in kind(last_step).states(streams):
+            recorder.observe(state, streams)
+            shown.append(state)
+    return shown
+
+
+def repeat(monkeypatch: pytest.MonkeyPatch, last_step: int, kind: type[SyntheticRun]) -> None:
+    """Let ``verify`` repeat a synthetic run, not a model that a config describes."""
+
+    @contextmanager
+    def repeatable(timeline: Timeline) -> Iterator[tuple[SyntheticRun, Streams]]:
+        yield kind(last_step), Streams(SEED, NAMES)
+
+    def simulate(run: SyntheticRun, streams: Streams, **_: object) -> Iterator[State]:
+        return run.states(streams)
+
+    monkeypatch.setattr(experiment, "repeatable", repeatable)
+    monkeypatch.setattr(experiment, "simulate", simulate)
 
 
 def resume(

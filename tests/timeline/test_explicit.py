@@ -1,6 +1,5 @@
 """Runs whose positions no affine map tells: recorded, read, continued and checked."""
 
-from contextlib import contextmanager
 from itertools import pairwise
 
 import h5py
@@ -29,13 +28,7 @@ def record(path, last_step=LAST, **options):
 def recorded(tmp_path_factory):
     """A recorded run, and every state of it."""
     path = tmp_path_factory.mktemp("explicit") / "run.h5"
-    streams = Streams(SEED, NAMES)
-    with create(path, motion=Motion.EXPLICIT) as recorder:
-        shown = []
-        for state in ExplicitRun(LAST).states(streams):
-            recorder.observe(state, streams)
-            shown.append(state)
-    return path, shown
+    return path, synthetic.recorded_states(path, LAST, ExplicitRun)
 
 
 @pytest.fixture
@@ -99,7 +92,10 @@ def test_tables_and_data_frames_are_those_of_any_run(recorded):
         assert len(frames) == LAST + 1
         assert "n_boundaries" in frames
         assert set(timeline.to_pandas("states")["what"]) == {"source", "canal"}
-        assert timeline.frame().to_networkx().number_of_nodes() == len(timeline.positions())
+        network = timeline.frame().network
+        assert len(network.positions) == len(timeline.positions())
+        # nodes that refinement has replaced are no part of the graph
+        assert timeline.frame().to_networkx().number_of_nodes() == network.n_vein_nodes
 
 
 def test_the_last_frame_of_a_sound_file(recorded):
@@ -322,17 +318,8 @@ def test_a_chunk_that_was_damaged_is_found(path):
 
 @pytest.fixture
 def repeated(monkeypatch):
-    """Let ``verify`` repeat the synthetic run, not a model that a config describes."""
-
-    @contextmanager
-    def repeatable(timeline):
-        yield ExplicitRun(LAST), Streams(SEED, NAMES)
-
-    def simulate(run, streams, *, observers, max_steps):
-        return run.states(streams)
-
-    monkeypatch.setattr(experiments, "repeatable", repeatable)
-    monkeypatch.setattr(experiments, "simulate", simulate)
+    """Let ``verify`` repeat the synthetic run."""
+    synthetic.repeat(monkeypatch, LAST, ExplicitRun)
 
 
 def test_a_repeated_run_is_the_same_bit_for_bit(path, repeated):

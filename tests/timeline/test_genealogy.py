@@ -14,7 +14,7 @@ from vasc.errors import TimelineError
 from vasc.events import EventKind
 from vasc.experiment import run
 from vasc.timeline import Timeline
-from vasc.timeline.genealogy import _found, _recorded, genealogy_of
+from vasc.timeline.run_genealogy import _found, _recorded, genealogy_of
 
 RUNS = {
     "marginal": ("param-kill-distance-e", [], None),

@@ -13,6 +13,7 @@ from vasc import experiment as experiments
 from vasc.cli.program import main
 from vasc.errors import TimelineError, VascError
 from vasc.experiment import Difference
+from vasc.models.base import RecordParameters
 from vasc.network import Origin
 from vasc.render import draw_leaf
 from vasc.sources import Cause
@@ -32,13 +33,7 @@ def record(path, last_step=LAST, **options):
 def recorded(tmp_path_factory):
     """A recorded run, and every state of it."""
     path = tmp_path_factory.mktemp("stem") / "run.h5"
-    streams = Streams(SEED, NAMES)
-    with create(path, StemRun) as recorder:
-        shown = []
-        for state in StemRun(LAST).states(streams):
-            recorder.observe(state, streams)
-            shown.append(state)
-    return path, shown
+    return path, synthetic.recorded_states(path, LAST, StemRun)
 
 
 @pytest.fixture
@@ -193,11 +188,16 @@ class StemModel:
 def experiment():
     """An experiment whose parameters know nothing of growth or a blade."""
     return SimpleNamespace(
+        label="a stem",
         kind="stem",
         toml=synthetic.TOML,
         record=synthetic.CONFIG,
         parameters=SimpleNamespace(
-            seed=SEED, stream_names=NAMES, units=None, record=SimpleNamespace(perceived="nodes")
+            kind="own",
+            seed=SEED,
+            stream_names=NAMES,
+            units=None,
+            record=RecordParameters(perceived="nodes"),
         ),
         model=StemModel,
     )
@@ -381,17 +381,8 @@ def test_areas_in_space_are_refused(path):
 
 @pytest.fixture
 def repeated(monkeypatch):
-    """Let ``verify`` repeat the synthetic run, not a model that a config describes."""
-
-    @contextmanager
-    def repeatable(timeline):
-        yield StemRun(LAST), Streams(SEED, NAMES)
-
-    def simulate(run, streams, *, observers, max_steps):
-        return run.states(streams)
-
-    monkeypatch.setattr(experiments, "repeatable", repeatable)
-    monkeypatch.setattr(experiments, "simulate", simulate)
+    """Let ``verify`` repeat the synthetic run."""
+    synthetic.repeat(monkeypatch, LAST, StemRun)
 
 
 def test_a_repeated_run_is_the_same_bit_for_bit(path, repeated):

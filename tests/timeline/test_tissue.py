@@ -1,6 +1,5 @@
 """Runs on a tissue of cells: recorded, read, continued and checked, by a run that computes none."""
 
-from contextlib import contextmanager
 from dataclasses import replace
 from itertools import pairwise
 
@@ -36,13 +35,7 @@ def record(path, last_step=LAST, **options):
 def recorded(tmp_path_factory):
     """A recorded run, and every state of it."""
     path = tmp_path_factory.mktemp("tissue") / "run.h5"
-    streams = Streams(SEED, NAMES)
-    with create(path, TissueRun) as recorder:
-        shown = []
-        for state in TissueRun(LAST).states(streams):
-            recorder.observe(state, streams)
-            shown.append(state)
-    return path, shown
+    return path, synthetic.recorded_states(path, LAST, TissueRun)
 
 
 @pytest.fixture
@@ -95,7 +88,8 @@ def test_a_file_without_a_tissue_has_none(tmp_path):
         assert not {"tissue", "fields"} & set(file)
         # as written before there were any
         del file.attrs["tissue"]
-    assert validate(tmp_path / "leaf.h5") == []
+    # nothing is amiss but that this is not what was recorded
+    assert validate(tmp_path / "leaf.h5") == ["[checksums] attributes is not what was recorded"]
     with Timeline(tmp_path / "leaf.h5") as timeline:
         assert timeline.tissue is timeline.frame().fields is timeline.frame().tissue is None
         assert timeline.tables().past is None
@@ -440,17 +434,8 @@ def test_a_chunk_that_was_damaged_is_found(tmp_path):
 
 @pytest.fixture
 def repeated(monkeypatch):
-    """Let ``verify`` repeat the synthetic run, not a model that a config describes."""
-
-    @contextmanager
-    def repeatable(timeline):
-        yield TissueRun(LAST), Streams(SEED, NAMES)
-
-    def simulate(run, streams, *, observers, max_steps):
-        return run.states(streams)
-
-    monkeypatch.setattr(experiments, "repeatable", repeatable)
-    monkeypatch.setattr(experiments, "simulate", simulate)
+    """Let ``verify`` repeat the synthetic run."""
+    synthetic.repeat(monkeypatch, LAST, TissueRun)
 
 
 def test_a_repeated_run_is_the_same_bit_for_bit(path, repeated):

@@ -24,7 +24,11 @@ from vasc.validation.vein_statistics import (
 from vasc.validation.vein_statistics.branchings import branching_exponents
 from vasc.validation.vein_statistics.checks import check_numbers, check_open
 from vasc.validation.vein_statistics.suite import changed
-from vasc.validation.vein_statistics.variants import LEAF_VARIANTS
+from vasc.validation.vein_statistics.variants import (
+    LEAF_VARIANTS,
+    LeafVariant,
+    compare_variants,
+)
 
 
 def value_of(checks, key):
@@ -136,6 +140,28 @@ def test_variants_are_experiments_of_their_own():
                    for other, one in made[:number])  # fmt: skip
 
 
+def test_variants_are_grown_and_held_against_the_checks():
+    small = {"domain": {"length": 40.0}, "growth": {"final_length": 200.0}}
+    apart = small | {"placement": {"birth_distance_sources": 20.0}}
+    variants = [
+        LeafVariant("reticulate-leaf", "closed", name, change)
+        for name, change in (("small", small), ("sources apart", apart))
+    ]
+    names = []
+    rows = compare_variants(tuple(variants), names.append)
+    assert names == ["reticulate-leaf: small", "reticulate-leaf: sources apart"]
+    assert [row["variant"] for row in rows] == ["small", "sources apart"]
+    assert rows[0]["areoles"] > rows[1]["areoles"] > 0
+    for row in rows:
+        passed = {
+            key
+            for key, value in row["values"].items()
+            if LEAF_RANGES[key].low <= value <= LEAF_RANGES[key].high
+        }
+        assert set(row["fails"]) == set(row["values"]) - passed
+        assert passed
+
+
 def test_the_command_writes_the_report(tmp_path, monkeypatch, capsys):
     suite = small_report().as_suite()
     monkeypatch.setattr("vasc.validation.vein_statistics.leaf_suite", lambda progress: suite)
@@ -147,8 +173,15 @@ def test_the_command_writes_the_report(tmp_path, monkeypatch, capsys):
     assert "1 is below 1.3" in out
     assert "1.46 in Dalbergia" in out
     assert main(["validate", "leaf", "--json", "-o", str(tmp_path)]) == 1
-    assert len(list(tmp_path.glob("check-*.png"))) >= 8
+    drawn = sorted(tmp_path.glob("check-*.png"))
+    assert len(drawn) >= 8
     assert json.loads(capsys.readouterr().out)["suites"][0]["name"] == "leaf"
+    drawn[-1].write_text("mine")
+    assert main(["validate", "leaf", "-o", str(tmp_path)]) == 2
+    assert "exists already; use --force to replace it" in capsys.readouterr().err
+    assert drawn[-1].read_text() == "mine"
+    assert main(["validate", "leaf", "-o", str(tmp_path), "--force"]) == 1
+    assert drawn[-1].stat().st_size > 1000
 
 
 @pytest.mark.parametrize("arguments", [["leafs"], ["growth", "-o", "g.png"]])

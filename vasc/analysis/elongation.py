@@ -95,6 +95,11 @@ def stretched_pipes(network: VeinNetwork, widths: Floats, exponent: float) -> Pi
         Width of every node.
     exponent : float
         That of :func:`vasc.analysis.widths.radii`.
+
+    Returns
+    -------
+    Pipes
+        Of nodes ``widths**exponent``; empty for a network without nodes.
     """
     amounts = widths**exponent
     return Pipes(amounts, amounts[network.segments].min(axis=1, initial=np.inf))

@@ -1,7 +1,7 @@
 """The numbers that describe a venation pattern, as one dictionary."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -205,6 +205,21 @@ def unit_of(key: str, unit: str) -> str:
     if power == 0 or not unit:
         return ""
     return {1: unit, 2: f"{unit}^2", -1: f"1/{unit}"}[power]
+
+
+def flattened(numbers: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
+    """Give names and values, those of a dictionary within as ``name.key``.
+
+    Examples
+    --------
+    >>> dict(flattened({"nodes": 5, "junction_degree": {"3": 1.0}}))
+    {'nodes': 5, 'junction_degree.3': 1.0}
+    """
+    for key, value in numbers.items():
+        if isinstance(value, Mapping):
+            yield from flattened(value, f"{before}{key}.")
+        else:
+            yield before + key, value
 
 
 def _in_unit(numbers: Numbers, scale: float) -> Numbers:

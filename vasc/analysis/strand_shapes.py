@@ -101,6 +101,11 @@ def landings(tissue: Tissue, inflow: Floats, thresholds: StrandThresholds) -> tu
         What arrives in each vein cell, 0 in all others.
     thresholds : StrandThresholds
         How much a cell and an end get at least, and how far apart two ends are.
+
+    Returns
+    -------
+    tuple of int
+        Cells; empty where no strand ends on a vein.
     """
     from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree

@@ -60,6 +60,8 @@ class Strand:
         From the source to the nearest cell of each group, by Euclid and over cells.
     largest_through : float
         The most that passes a cell, over all that is made.
+    thresholds : StrandThresholds
+        What counted as a strand.
     """
 
     source_cell: int

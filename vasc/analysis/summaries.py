@@ -128,6 +128,10 @@ def summed_up(
         Why the run ended, None if it can go on.
     is_interrupted : bool
         True when the caller stopped it.
+
+    Returns
+    -------
+    Summary
     """
     kinds = np.bincount(state.rows("events", "kind"), minlength=len(EventKind)).tolist()
     network = state.network

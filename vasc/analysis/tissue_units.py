@@ -22,6 +22,10 @@ def unit_of(config: Mapping[str, Any], color: str) -> str:
         The config of a run on a tissue.
     color : {"concentration", "flux", "carriers", "role"}
         What the shade of a cell tells.
+
+    Returns
+    -------
+    str
     """
     model = config.get("kind")
     if model in OF_MODELS:

@@ -39,6 +39,10 @@ def count_cycles(network: VeinNetwork, *, components: int | None = None) -> int:
         Any network; it may be empty.
     components : int, optional
         Its number of components, if known already.
+
+    Returns
+    -------
+    int
     """
     components = count_components(network) if components is None else components
     return network.n_segments - network.n_vein_nodes + components

@@ -1,6 +1,5 @@
 """``vasc animate``: a film of a growing leaf."""
 
-import sys
 from typing import Annotated
 
 import typer
@@ -24,25 +23,23 @@ def animate(
 ) -> None:
     """Make a film of a run, as mp4 or gif."""
     from vasc import render as drawing
-    from vasc.cli.run import check_picture
+    from vasc.cli.outputs import check_file
+    from vasc.cli.terminal_line import TerminalLine
 
-    check_picture(output, force=force)
-    is_shown = not quiet and sys.stderr.isatty()
+    check_file(output, force=force)
+    with TerminalLine(0.0, quiet=quiet) as line:
 
-    def progress(count: int, total: int) -> None:
-        sys.stderr.write(f"\r\x1b[Kpicture {count} of {total}")
-        sys.stderr.flush()
+        def progress(count: int, total: int) -> None:
+            line.write(f"picture {count} of {total}")
 
-    file = drawing.animate(
-        path,
-        output,
-        every=every,
-        color=color,
-        sources=sources,
-        scale_bar=scale_bar,
-        progress=progress if is_shown else None,
-    )
-    if is_shown:
-        sys.stderr.write("\r\x1b[K")
+        file = drawing.animate(
+            path,
+            output,
+            every=every,
+            color=color,
+            sources=sources,
+            scale_bar=scale_bar,
+            progress=progress if line.is_shown else None,
+        )
     if not quiet:
         typer.echo(f"written: {file}")

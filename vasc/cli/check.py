@@ -52,15 +52,12 @@ def sequence(
 
     Exit code 1 if a criterion fails; one that cannot be decided is no failure.
     """
+    from vasc.cli.outputs import check_picture
     from vasc.cli.printing import print_json
-    from vasc.cli.run import check_picture
     from vasc.validation.arabidopsis import check_sequence
 
     if output is not None:
-        from vasc.render.saving import PICTURE_SUFFIXES, checked_output
-
         check_picture(output, force=force)
-        checked_output(output, PICTURE_SUFFIXES)
     report = check_sequence(path)
     found = report.as_json()
     if output is not None:
@@ -130,16 +127,13 @@ def connectivity(
     Exit code 1 if they connect other primordia than predicted, or too few of them do.
     """
     from vasc.cli.connectivity import print_connectivity, told
+    from vasc.cli.outputs import check_picture
     from vasc.cli.printing import print_json
-    from vasc.cli.run import check_picture
     from vasc.timeline import Timeline
     from vasc.validation.stem_phyllotaxis import check_connectivity, reading
 
     if output is not None:
-        from vasc.render.saving import PICTURE_SUFFIXES, checked_output
-
         check_picture(output, force=force)
-        checked_output(output, PICTURE_SUFFIXES)
     with Timeline(path) as timeline:
         graph = reading.read_stem(timeline)
     report = check_connectivity(graph)

@@ -59,7 +59,7 @@ def compare(
 
 def rows_of(one: dict[str, Any], other: dict[str, Any]) -> Iterator[tuple[Any, ...]]:
     """Give name, unit, both values, their ratio where it has a meaning, and of how many each is."""
-    from vasc.analysis.statistics import POWERS
+    from vasc.analysis.statistics import POWERS, flattened
 
     units = [numbers["length_unit"] for numbers in (one, other)]
     apart = on_different_areas(one, other)
@@ -120,15 +120,6 @@ def _sample(flat: dict[str, Any], name: str) -> int | None:
         return None
     found: int | None = flat.get(before + dot + SAMPLES[key])
     return found
-
-
-def flattened(numbers: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
-    """Give names and values, those of a dictionary within as ``name.key``."""
-    for key, value in numbers.items():
-        if isinstance(value, dict):
-            yield from flattened(value, f"{before}{key}.")
-        else:
-            yield before + key, value
 
 
 def two_runs(one: Path, other: Path) -> dict[str, Any]:

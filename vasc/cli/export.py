@@ -59,7 +59,7 @@ def export(
     Lengths are in D, or in the unit that the config gives; of a tissue, in widths of a cell.
     """
     from vasc import export as exports
-    from vasc.cli.run import check_folder, check_picture
+    from vasc.cli.outputs import check_file, check_folder
     from vasc.crates import export_crate, is_crate
     from vasc.errors import OutputError
 
@@ -76,7 +76,7 @@ def export(
     if is_tissue and (every is not None or spanning_tree):
         raise OutputError(f"{output}: --every and --spanning-tree are not for a tissue")
     if is_tissue:
-        check_picture(output, force=force)
+        check_file(output, force=force)
         width = exports.CELL if cell is None else cell
         file = exports.export_tissue(path, output, step, cell=width)
         warn_without_sources(file)

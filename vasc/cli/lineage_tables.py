@@ -26,10 +26,10 @@ def asked_for(timeline: "Timeline", name: str, source: int | None) -> "dict[str,
     if name == "competitors":
         return timeline.lineage.competitors(source)
     if name == "births":
+        from vasc.analysis.run_widths import widths_of
         from vasc.analysis.segment_orders import run_node_orders
-        from vasc.analysis.widths import WidthParameters
 
-        asked = WidthParameters.model_validate(timeline.config.get("widths") or {})
+        asked = widths_of(timeline.config)
         n_nodes = timeline.n_rows("nodes")
         orders = run_node_orders(timeline.frame, timeline.last_step, asked, n_nodes)
         return timeline.lineage.births(orders)

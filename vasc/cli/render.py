@@ -46,8 +46,8 @@ def render(
 ) -> None:
     """Draw a leaf, stem or tissue at its last step or another one, as png, svg or pdf."""
     from vasc import render as drawing
+    from vasc.cli.outputs import check_picture
     from vasc.cli.printing import print_json
-    from vasc.cli.run import check_picture
 
     check_picture(output, force=force)
     forms = {
@@ -67,11 +67,11 @@ def render(
     if growth:
         from vasc.cli.growing import growth_figure
 
-        file = save_figure(growth_figure(path, step or []), output)
+        drawing.save(growth_figure(path, step or []), output)
     elif genealogy or births or survival:
-        file = save_figure(_lineage_figure(path, chosen[0], step or []), output)
+        drawing.save(_lineage_figure(path, chosen[0], step or []), output)
     else:
-        file = drawing.render(
+        drawing.render(
             path,
             output,
             steps=step or [-1],
@@ -81,9 +81,9 @@ def render(
             unroll=unroll,
         )
     if as_json:
-        print_json({"files": [str(file)]})
+        print_json({"files": [str(output)]})
     else:
-        typer.echo(f"written: {file}")
+        typer.echo(f"written: {output}")
 
 
 def _lineage_figure(path: Path, form: str, steps: list[int]) -> "Figure":
@@ -100,12 +100,3 @@ def _lineage_figure(path: Path, form: str, steps: list[int]) -> "Figure":
             return drawing.draw_survival(timeline)
         draw = drawing.draw_genealogy if form == "--genealogy" else drawing.draw_births
         return draw(timeline, *steps)
-
-
-def save_figure(figure: "Figure", output: Path) -> Path:
-    """Write a figure, and give the path of the file."""
-    from vasc.render.saving import PICTURE_SUFFIXES, checked_output, save
-
-    file = checked_output(output, PICTURE_SUFFIXES)
-    save(figure, file)
-    return file

@@ -1,6 +1,5 @@
 """``vasc run``: grow a leaf and record it."""
 
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -55,6 +54,7 @@ def run(
     """Run an experiment: record every step, and draw the last one."""
     from vasc.cli.announcement import Announcement
     from vasc.cli.interrupts import Interrupts
+    from vasc.cli.outputs import check_folder, check_outputs
     from vasc.cli.progress import ProgressLine
     from vasc.cli.start import load_numba
     from vasc.cli.summary import end_if_interrupted, print_summary
@@ -111,72 +111,3 @@ def changed(config: str, changes: Sequence[str], seed: int | None) -> "Experimen
 
     overrides = [parse_override(change) for change in changes]
     return load(config, [*overrides, *([] if seed is None else [(("seed",), seed)])])
-
-
-def check_outputs(config: str, output: Path, figure: Path | None, *, force: bool) -> None:
-    """Refuse files that are one, and a picture that cannot be written.
-
-    Raises
-    ------
-    OutputError
-        If two of the files are one, or the picture exists and ``force`` is not
-        set, its folder does not exist, or it is of no known kind.
-    """
-    from vasc.errors import OutputError
-    from vasc.render import PICTURE_SUFFIXES
-
-    named = [("config", Path(config)), ("timeline", output)]
-    if figure is not None:
-        check_folder(figure)
-        named.append(("picture", figure))
-    for index, (kind, path) in enumerate(named[1:], start=1):
-        for other_kind, other in named[:index]:
-            if path.absolute() == other.absolute() or (path.exists() and _is_same(path, other)):
-                raise OutputError(f"{path}: cannot be {other_kind} and {kind} at once")
-    if figure is not None:
-        if figure.suffix.lower() not in PICTURE_SUFFIXES:
-            known = ", ".join(PICTURE_SUFFIXES)
-            raise OutputError(f"{figure}: suffix {figure.suffix!r} is not one of {known}")
-        check_picture(figure, force=force)
-
-
-def check_picture(figure: Path, *, force: bool) -> None:
-    """Refuse a picture that exists, or whose folder does not.
-
-    Raises
-    ------
-    OutputError
-        If it cannot be written.
-    """
-    from vasc.errors import OutputError
-
-    check_folder(figure)
-    if figure.is_dir():
-        raise OutputError(f"{figure}: is a folder")
-    if figure.exists() and not force:
-        raise OutputError(f"{figure}: exists already; use --force to replace it")
-
-
-def check_folder(path: Path) -> None:
-    """Refuse a file whose folder does not exist, or into which nothing can be written.
-
-    Raises
-    ------
-    OutputError
-        If no file of that name can be made there.
-    """
-    from vasc.errors import OutputError
-
-    if not path.parent.is_dir():
-        raise OutputError(f"{path}: the folder {str(path.parent)!r} does not exist")
-    if not os.access(path.parent, os.W_OK | os.X_OK):
-        raise OutputError(f"{path}: the folder {str(path.parent)!r} cannot be written to")
-    try:
-        path.exists()
-    except (OSError, ValueError) as error:
-        raise OutputError(f"{str(path)[:80]!r}: is not the name of a file: {error}") from error
-
-
-def _is_same(path: Path, other: Path) -> bool:
-    """Tell whether two names lead to one file."""
-    return other.exists() and path.samefile(other)

@@ -66,13 +66,13 @@ def measured(path: Path, step: int, seed: int) -> dict[str, Any]:
         if step != -1:
             raise VascError(f"--step {step}: {path} is no run, a real network has no steps")
         return network_statistics(read_network(path), seed=seed)
-    from vasc.analysis import WidthParameters, run_widths, statistics
+    from vasc.analysis import run_widths, statistics
+    from vasc.analysis.run_widths import widths_of
     from vasc.timeline import Timeline
 
     with Timeline(path) as timeline:
         frame = timeline.frame(step)
         if timeline.dimensions != 2:
             return statistics(frame, timeline.units)
-        asked = WidthParameters.model_validate(timeline.config.get("widths") or {})
-        widths = run_widths(timeline.frame, frame.step, asked)
+        widths = run_widths(timeline.frame, frame.step, widths_of(timeline.config))
         return statistics(frame, timeline.units, widths=widths, seed=seed)

@@ -8,7 +8,9 @@ from typing import Annotated, Any
 import typer
 
 from vasc.cli.options import AsJson, Force
-from vasc.cli.run import check_picture
+from vasc.cli.outputs import check_file, check_picture
+from vasc.errors import writing
+from vasc.whole_files import write_whole
 
 EXAMPLES = (
     "vasc validate growth",
@@ -101,10 +103,7 @@ def _check_output(output: Path, suite: str | None, *, force: bool) -> None:
     if suite == "canalization":
         if output.suffix != ".json":
             raise ConfigError(f"--output {output}: tables of canalization are written as .json")
-        if output.exists() and not force:
-            raise ConfigError(f"{output} exists; --force replaces it")
-        if not output.parent.is_dir():
-            raise ConfigError(f"--output {output}: there is no folder {output.parent}")
+        check_file(output, force=force)
         return
     if suite not in (None, "transitions", "leaf"):
         raise ConfigError(
@@ -112,13 +111,13 @@ def _check_output(output: Path, suite: str | None, *, force: bool) -> None:
             " canalization written"
         )
     if suite == "leaf" and output.is_dir():
-        return
-    check_picture(output, force=force)
-    from vasc.render.saving import PICTURE_SUFFIXES, checked_output
+        from vasc.render.leaf_checks import check_pictures
 
+        for picture in check_pictures(output):
+            check_file(picture, force=force)
+        return
     # a minute of simulations, and then no picture, is what this saves
-    of_tables = (".json",) if suite is None else ()
-    checked_output(output, (*PICTURE_SUFFIXES, *of_tables))
+    check_picture(output, force=force, also=(".json",) if suite is None else ())
 
 
 def _write(output: Path, suites: list[dict[str, Any]]) -> None:
@@ -127,7 +126,9 @@ def _write(output: Path, suites: list[dict[str, Any]]) -> None:
     if output.suffix == ".json":
         import json
 
-        output.write_text(json.dumps(found["canalization"], indent=2, allow_nan=False) + "\n")
+        text = json.dumps(found["canalization"], indent=2, allow_nan=False) + "\n"
+        with writing(output):
+            write_whole(output, text)
         return
     from vasc.render import draw_transitions, save, save_leaf_checks
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from vasc.config.attachments import referenced_files
 from vasc.config.reading import parse, read_text
 from vasc.errors import ConfigError, OutputError
+from vasc.whole_files import write_whole
 
 SWEEPS = "sweeps"
 """Folder of the sweeps, among the experiments."""
@@ -163,7 +164,7 @@ def copy_bundled(name: str, folder: Path) -> list[Path]:
     for target, content in missing.items():
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
-            target.write_bytes(content)
+            write_whole(target, content)
         except OSError as error:
             raise OutputError(
                 f"{target}: cannot be written: {error.strerror or error}; --to names another folder"

@@ -1,4 +1,4 @@
-"""How large a run of any kind will become: a leaf, a stem, or a tissue.
+"""How large a run of any kind will become: a leaf, a stem, a tissue, or a medium that doubles.
 
 Stems were measured on the bundled ones, and on one of 97,000 nodes (270 bytes of memory each);
 tissues in boxes of 3,600 to 90,000 cells (1,700 bytes a cell, 2,900 if they are Voronoi cells).
@@ -10,14 +10,21 @@ from typing import Any
 from vasc.config.expected import (
     BYTES_OF_NODE,
     BYTES_OF_PROGRAM,
+    BYTES_OF_SOURCE,
     FILE_BYTES_OF_FRAME,
     FILE_BYTES_OF_NODE,
     FILE_BYTES_OF_RUN,
     FILE_BYTES_OF_SOURCE,
+    SOURCES_PER_SPACING,
+    VEINS_PER_SPACING,
     ExpectedSize,
     expected_size,
 )
 from vasc.domain import Tissue
+from vasc.growth import Growth
+from vasc.models.gottlieb import GottliebParameters
+from vasc.models.leaf import LeafVenation
+from vasc.models.stem import StemVasculature
 from vasc.timeline.tissues import LEAST_STEPS, n_bytes_a_step
 
 STRANDS_PER_PRIMORDIUM = 2.5
@@ -41,14 +48,19 @@ def foreseen(parameters: Any, model: Any) -> ExpectedSize:
     Returns
     -------
     ExpectedSize
-        On the high side; of a tissue, the file after 100 steps, or as many as there may be.
+        On the high side; of a tissue, the file after 100 steps, or as many as there may be. Of
+        an installed model with a sentence of its own, what every run takes.
     """
-    if parameters.kind == "stem":
-        return stem_size(parameters)
     tissue = getattr(model, "tissue", None)
     if tissue is not None:
         return tissue_size(tissue, parameters.stop.steps)
-    return expected_size(parameters, model.growth)
+    if isinstance(parameters, LeafVenation):
+        return expected_size(parameters, model.growth)
+    if isinstance(parameters, StemVasculature):
+        return stem_size(parameters)
+    if isinstance(parameters, GottliebParameters):
+        return doubling_size(parameters, model.growth)
+    return ExpectedSize(sources=0, nodes=0, memory=BYTES_OF_PROGRAM, file=FILE_BYTES_OF_RUN)
 
 
 def stem_size(parameters: Any) -> ExpectedSize:
@@ -69,6 +81,22 @@ def stem_size(parameters: Any) -> ExpectedSize:
         nodes=round(nodes),
         memory=round(BYTES_OF_PROGRAM + BYTES_OF_NODE * nodes),
         file=round(FILE_BYTES_OF_RUN + file),
+    )
+
+
+def doubling_size(parameters: GottliebParameters, growth: Growth) -> ExpectedSize:
+    """Give the size that straight veins may reach, from the spaces in the last blade."""
+    area = growth.domain(growth.last_step).area
+    sources = SOURCES_PER_SPACING * area / parameters.space**2 + 1.0
+    # the first veins cross a blade, however large its spaces are
+    length = VEINS_PER_SPACING * area / parameters.space + 3.0 * sqrt(area)
+    # what is longer than the longest segment is halved
+    nodes = 2.0 * length / parameters.longest + sources
+    return ExpectedSize(
+        sources=round(sources),
+        nodes=round(nodes),
+        memory=round(BYTES_OF_PROGRAM + BYTES_OF_NODE * nodes + BYTES_OF_SOURCE * sources),
+        file=round(FILE_BYTES_OF_RUN + FILE_BYTES_OF_NODE * nodes + FILE_BYTES_OF_SOURCE * sources),
     )
 
 

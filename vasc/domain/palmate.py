@@ -1,6 +1,6 @@
 """Named shapes that spread from the attachment: lobed like a hand, kidney-shaped, fan-shaped."""
 
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -10,30 +10,58 @@ from vasc.domain.shape_base import ShapeParameters, tip_form
 from vasc.parameters import quantity
 
 
+def _lobes(default: int) -> Any:
+    """Declare the number of lobes."""
+    return quantity("Number of lobes.", default=default, ge=2, le=31)
+
+
+def _spread(default: float) -> Any:
+    """Declare how far lobes spread."""
+    return quantity(
+        "Angle between the axes of the outermost lobes.",
+        unit="degrees",
+        default=default,
+        ge=20.0,
+        le=340.0,
+    )
+
+
+def _depth(default: float) -> Any:
+    """Declare the depth of sinuses."""
+    return quantity(
+        "Depth of the sinuses between lobes over the length of the lobes.",
+        default=default,
+        ge=0.0,
+        le=0.9,
+    )
+
+
+def _outer(default: float) -> Any:
+    """Declare the length of the outermost lobes."""
+    return quantity(
+        "Length of the outermost lobes over that of the longest.", default=default, ge=0.1, le=1.0
+    )
+
+
+def _bulge(default: float) -> Any:
+    """Declare the flanks of lobes."""
+    return quantity(
+        "How far the flanks of a lobe swell: 0 straight, 1 strongly.",
+        default=default,
+        ge=0.0,
+        le=1.0,
+    )
+
+
 class Lobed(ShapeParameters):
     """A digitate blade: lobes that radiate from the attachment, as in sweetgum or maple."""
 
     shape: Literal["lobed"] = "lobed"
-    lobes: int = quantity("Number of lobes.", default=5, ge=2, le=31)
-    spread: float = quantity(
-        "Angle between the axes of the outermost lobes.",
-        unit="degrees",
-        default=228.0,
-        ge=20.0,
-        le=340.0,
-    )
-    depth: float = quantity(
-        "Depth of the sinuses between lobes over the length of the lobes.",
-        default=0.56,
-        ge=0.0,
-        le=0.9,
-    )
-    outer: float = quantity(
-        "Length of the outermost lobes over that of the longest.", default=0.68, ge=0.1, le=1.0
-    )
-    bulge: float = quantity(
-        "How far the flanks of a lobe swell: 0 straight, 1 strongly.", default=0.3, ge=0.0, le=1.0
-    )
+    lobes: int = _lobes(5)
+    spread: float = _spread(228.0)
+    depth: float = _depth(0.56)
+    outer: float = _outer(0.68)
+    bulge: float = _bulge(0.3)
     tip: float = tip_form(-0.1)
 
     def half(self) -> list[Points]:
@@ -87,26 +115,11 @@ class Reniform(Lobed):
     """A nearly round blade about the attachment with shallow lobes, as in lady's mantle."""
 
     shape: Literal["reniform"] = "reniform"  # type: ignore[assignment]
-    lobes: int = quantity("Number of lobes.", default=9, ge=2, le=31)
-    spread: float = quantity(
-        "Angle between the axes of the outermost lobes.",
-        unit="degrees",
-        default=290.0,
-        ge=20.0,
-        le=340.0,
-    )
-    depth: float = quantity(
-        "Depth of the sinuses between lobes over the length of the lobes.",
-        default=0.09,
-        ge=0.0,
-        le=0.9,
-    )
-    outer: float = quantity(
-        "Length of the outermost lobes over that of the longest.", default=0.76, ge=0.1, le=1.0
-    )
-    bulge: float = quantity(
-        "How far the flanks of a lobe swell: 0 straight, 1 strongly.", default=0.0, ge=0.0, le=1.0
-    )
+    lobes: int = _lobes(9)
+    spread: float = _spread(290.0)
+    depth: float = _depth(0.09)
+    outer: float = _outer(0.76)
+    bulge: float = _bulge(0.0)
     tip: float = tip_form(1.0)
 
 

@@ -21,6 +21,10 @@ def packed(mesh: StemMesh, suffix: str, heading: tuple[str, ...] = ()) -> bytes:
     heading : tuple of str
         Lines that say what it is.
 
+    Returns
+    -------
+    bytes
+
     Raises
     ------
     VascError

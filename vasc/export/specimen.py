@@ -8,11 +8,10 @@ import numpy as np
 
 from vasc.analysis.ancestry import descent, segment_causes
 from vasc.analysis.branches import branch_orders
-from vasc.analysis.elongation import Elongation, stretched_pipes
+from vasc.analysis.run_widths import widths_at, widths_of
 from vasc.analysis.segment_orders import segment_orders
 from vasc.analysis.tubes import strand_radii
 from vasc.analysis.units import LengthUnit
-from vasc.analysis.widths import WidthParameters, radii, segment_radii
 from vasc.arrays import Codes, Floats, Ids, Points, Steps
 from vasc.config.changes import title_with_changes
 from vasc.export.words import plain
@@ -178,25 +177,14 @@ def specimens(timeline: Timeline, steps: Sequence[int]) -> Iterator[Specimen]:
     TimelineError
         If a step was not recorded, or cannot be read.
     """
-    parameters = WidthParameters.model_validate(timeline.config.get("widths") or {})
-    if is_stem(timeline) or parameters.rule != "elongation":
-        for step in steps:
-            frame = timeline.frame(step)
-            if is_stem(timeline):
-                heights = frame.network.positions[:, 2]
-                widths = strand_radii(heights)[frame.network.segments].sum(axis=1)
-            else:
-                widths = 2.0 * segment_radii(frame.network, parameters)
+    if not is_stem(timeline):
+        for frame, widths in widths_at(timeline.frame, steps, widths_of(timeline.config)):
             yield _cut(timeline, frame, widths)
         return
-    elongation = Elongation(parameters.kappa)
-    for step in range(max(steps, default=-1) + 1):
+    for step in steps:
         frame = timeline.frame(step)
-        elongation.update(frame)
-        if step in steps:
-            pipes = stretched_pipes(frame.network, elongation.widths, parameters.exponent)
-            most = float(pipes.nodes.max(initial=1.0))
-            yield _cut(timeline, frame, 2.0 * radii(pipes.segments, parameters, most))
+        heights = frame.network.positions[:, 2]
+        yield _cut(timeline, frame, strand_radii(heights)[frame.network.segments].sum(axis=1))
 
 
 def _cut(timeline: Timeline, frame: Frame, widths: Floats) -> Specimen:

@@ -14,6 +14,7 @@ from vasc.errors import VascError, writing
 from vasc.export.files import TISSUE_SUFFIX, check_suffix
 from vasc.timeline import Frame, Timeline
 from vasc.timeline.stems import is_stem
+from vasc.whole_files import write_whole
 
 CELL = 2.0
 """Width of a cell in D of the leaf, when not given."""
@@ -51,7 +52,7 @@ def export_tissue(
     Raises
     ------
     OutputError
-        If the suffix is another, or the folder does not exist.
+        If the suffix is another, the folder does not exist, or it cannot be written.
     VascError
         If the run is a stem's, the step was not recorded, the outline has several rings, or
         cells of that width make no tissue.
@@ -68,7 +69,7 @@ def export_tissue(
         with Timeline(run) as timeline:
             text = tissue_config(timeline, step, cell)
     with writing(output):
-        output.write_text(text, encoding="utf-8")
+        write_whole(output, text)
     return output
 
 

@@ -6,6 +6,7 @@ from collections.abc import Hashable
 
 import numpy as np
 
+from vasc.arrays import Floats
 from vasc.errors import NetworkError
 from vasc.limits import NETWORK_ROWS
 from vasc.real_network import RealNetwork
@@ -150,21 +151,18 @@ class Edges:
             raise self.error(where, f"{what} is {shown(value)}; it must be above 0")
         return number
 
-    def _column(self, values: list[float | None], what: str) -> "np.ndarray | None":
+    def _column(self, values: list[float | None], what: str) -> Floats | None:
         """Give a column as an array, None if it is empty."""
         missing = [row for row, value in enumerate(values) if value is None]
         if len(missing) == len(values):
             return None
         if missing:
-            pair = next(key for key, row in self._numbered() if row == missing[0])
+            # edges are kept in the order in which they come
+            where = list(self._first.values())[missing[0]]
             raise self.error(
-                self._first[pair], f"has no {what}, as other edges have; give all edges one or none"
+                where, f"has no {what}, as other edges have; give all edges one or none"
             )
         return np.array(values, dtype=np.float64)
-
-    def _numbered(self) -> list[tuple[tuple[int, int], int]]:
-        """Give the edges and their rows."""
-        return [(key, row) for row, key in enumerate(self._first)]
 
 
 def number_of(value: object) -> float:

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vasc.analysis.run_widths import widths_of
 from vasc.analysis.widths import WidthParameters
 from vasc.errors import OutputError, VascError
-from vasc.render.files import node_widths, open_run, widths_of
+from vasc.render.files import node_widths, open_run
 from vasc.render.leaf import draw_leaf, fitted_widths, narrowest_of, view_of
 from vasc.render.saving import checked_output
 from vasc.render.styles import DPI, SOURCE_STATE_COLORS, TISSUE_COLOR_CHOICES, LeafStyle
@@ -118,7 +119,7 @@ def animate(
         if color in TISSUE_COLOR_CHOICES:
             figures = tissue_figures(timeline, steps, color, scale_bar, side)
         else:
-            asked = widths or widths_of(timeline)
+            asked = widths or widths_of(timeline.config)
             look = LeafLook(color, asked, sources, scale_bar, style, side)
             figures = _leaf_figures(timeline, steps, look)
         write(_told(map(_pixels, figures), len(steps), progress), output, film)

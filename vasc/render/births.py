@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vasc.analysis.run_widths import widths_of
 from vasc.analysis.segment_orders import run_node_orders
 from vasc.analysis.units import LengthUnit
 from vasc.events import EventKind
-from vasc.render.files import widths_of
 from vasc.render.styles import INK, ORDER_COLORS, TEXT_SIZE, LeafStyle
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def draw_births(
     unit = LengthUnit.from_table(timeline.units)
     if orders is None:
         n_nodes = timeline.n_rows("nodes")
-        orders = run_node_orders(timeline.frame, last, widths_of(timeline), n_nodes)
+        orders = run_node_orders(timeline.frame, last, widths_of(timeline.config), n_nodes)
     table = timeline.lineage.births(orders)
     is_shown = table["step"] <= last
     _draw_extent(above, timeline, last, unit, style)

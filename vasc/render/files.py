@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vasc.analysis.elongation import Elongation
+from vasc.analysis.run_widths import widths_of
 from vasc.analysis.widths import WidthParameters
 from vasc.arrays import Floats
 from vasc.errors import VascError
@@ -104,7 +105,7 @@ def render(
         if color in TISSUE_COLOR_CHOICES:
             figure = draw_steps(timeline, frames, color=color, scale_bar=scale_bar, side=side)
         else:
-            asked = widths_of(timeline) if widths is None else widths
+            asked = widths_of(timeline.config) if widths is None else widths
             style = LeafStyle() if style is None else style
             figure, axes, views = _laid_out(frames, color, style, side)
             stretched = node_widths(timeline, asked, [frame.step for frame in frames])
@@ -140,11 +141,6 @@ def open_run(run: str | Path | Timeline) -> Iterator[Timeline]:
 
     with Timeline(run) as timeline:
         yield timeline
-
-
-def widths_of(timeline: Timeline) -> WidthParameters:
-    """Give the widths that a run's config asks for."""
-    return WidthParameters.model_validate(timeline.config.get("widths") or {})
 
 
 def node_widths(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -221,12 +221,15 @@ def save_leaf_checks(suite: Mapping[str, Any], output: str | Path) -> list[Path]
     if not output.is_dir():
         save(draw_leaf_checks(suite), output)
         return [output]
-    paths = []
-    for number in drawn(suite):
-        path = output / f"check-{number}.png"
+    paths = check_pictures(output, drawn(suite))
+    for number, path in zip(drawn(suite), paths, strict=True):
         save(draw_leaf_check(suite, number), path)
-        paths.append(path)
     return paths
+
+
+def check_pictures(folder: Path, numbers: Iterable[int] = tuple(_PICTURES)) -> list[Path]:
+    """Give the names of the pictures of checks in a folder; of all checks if none are named."""
+    return [folder / f"check-{number}.png" for number in numbers]
 
 
 def _head(

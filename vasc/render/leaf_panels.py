@@ -251,9 +251,13 @@ def draw_densities(ax: Axes, suite: Suite) -> None:
             last = one[key][-1]
             values = [value / last if value else float("nan") for value in one[key]]
             ax.plot(areas, values, line, color=color, marker=marker, markersize=3.5, linewidth=1.2)
+    # of the last doubling of the area
     guide = [0.5, 1.0]
-    ax.plot(guide, [area**-0.5 for area in guide], color=INK, linewidth=2.5, alpha=0.35)
-    ax.fill_between(guide, 0.8, 1.2, color=RANGE, linewidth=0.0, zorder=0.0)
+    minor, major = (_asked(suite, 15, what) for what in ("minor", "exponent of major"))
+    exponent = (major["low"] + major["high"]) / 2.0
+    ax.plot(guide, [area**exponent for area in guide], color=INK, linewidth=2.5, alpha=0.35)
+    allowed = (1.0 - minor["high"], 1.0 + minor["high"])
+    ax.fill_between(guide, *allowed, color=RANGE, linewidth=0.0, zorder=0.0)
     ax.set(xscale="log", yscale="log", ylim=(0.15, 2.5))
     ax.set_xticks([1 / 16, 1 / 8, 1 / 4, 1 / 2, 1], ["1/16", "1/8", "1/4", "1/2", "1"])
     ax.set_yticks([0.2, 0.5, 1.0, 2.0], ["0.2", "0.5", "1", "2"])
@@ -290,6 +294,6 @@ def _checks(suite: Suite, number: int) -> Sequence[Mapping[str, Any]]:
     return [one for one in suite["checks"] if one["check"] == number]
 
 
-def _asked(suite: Suite, number: int) -> Mapping[str, Any]:
-    """Give the first check of a number."""
-    return _checks(suite, number)[0]
+def _asked(suite: Suite, number: int, what: str = "") -> Mapping[str, Any]:
+    """Give the first check of a number whose words begin so."""
+    return next(one for one in _checks(suite, number) if one["what"].startswith(what))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from vasc.errors import OutputError, writing
 from vasc.render.styles import DPI
+from vasc.whole_files import write_whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -44,7 +45,8 @@ def save(figure: Figure, output: str | Path) -> None:
     Raises
     ------
     OutputError
-        If the suffix is none of these, or the folder does not exist.
+        If the suffix is none of these, the folder does not exist, or the system refuses; an
+        old picture is then as it was.
     """
     from matplotlib import rc_context
 
@@ -53,9 +55,8 @@ def save(figure: Figure, output: str | Path) -> None:
     picture = io.BytesIO()
     with rc_context(_SETTINGS):
         figure.savefig(picture, format=kind[1:], dpi=DPI, metadata=_METADATA[kind])
-    # written in one go, so that no half picture is left behind
     with writing(output):
-        output.write_bytes(picture.getvalue())
+        write_whole(output, picture.getvalue())
 
 
 def checked_output(output: str | Path, suffixes: Sequence[str]) -> Path:

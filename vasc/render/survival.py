@@ -92,12 +92,11 @@ def _draw_curve(axes: Axes, table: Mapping[str, NDArray]) -> None:
     edges = np.append(table["age"], table["age"][-1] + 1)
     axes.stairs(table["survival"], edges, baseline=None, color=CURVE, linewidth=1.4,
                 label="Kaplan-Meier")  # fmt: skip
-    is_known = np.isfinite(table["low"])
-    low, high = (np.where(is_known, table[name], np.nan) for name in ("low", "high"))
+    low, high = (np.append(table[name], table[name][-1]) for name in ("low", "high"))
     axes.fill_between(
         edges,
-        np.append(low, low[-1]),
-        np.append(high, high[-1]),
+        low,
+        high,
         step="post",
         color=BAND,
         linewidth=0.0,

@@ -1,6 +1,5 @@
 """Measures over an axis of a sweep: means, with the intervals that hold them."""
 
-import json
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from vasc.render.styles import INK, SOURCE_COLORS, TEXT_SIZE
 from vasc.sweeps.folder import SweepFolder
-from vasc.sweeps.plan import PlannedRun
+from vasc.sweeps.plan import PlannedRun, is_number, value_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -121,13 +120,13 @@ def _draw_panel(
     is_drawn = first in sweep["random"]
     second = keys[1] if len(sweep["axes"]) > 1 else None
     places, labels = _places([run.values[first] for run in runs])
-    groups = list(dict.fromkeys(_text(run.values[second]) for run in runs)) if second else [""]
+    groups = list(dict.fromkeys(value_text(run.values[second]) for run in runs)) if second else [""]
     for index, group in enumerate(groups):
         pairs = [
-            (places[_text(run.values[first])], value)
+            (places[value_text(run.values[first])], value)
             for run in runs
             if (value := values[run.number]) is not None
-            and (second is None or _text(run.values[second]) == group)
+            and (second is None or value_text(run.values[second]) == group)
         ]
         color = SOURCE_COLORS[index % len(SOURCE_COLORS)]
         points = intervals(pairs)
@@ -171,9 +170,9 @@ def _explain(panel: "Axes", key: str) -> None:
 
 def _places(values: list[Any]) -> tuple[dict[str, float], dict[float, str]]:
     """Give the place of each value, and names for the places of values that are no numbers."""
-    if all(_is_number(value) for value in values):
-        return {_text(value): float(value) for value in values}, {}
-    names = list(dict.fromkeys(_text(value) for value in values))
+    if all(is_number(value) for value in values):
+        return {value_text(value): float(value) for value in values}, {}
+    names = list(dict.fromkeys(value_text(value) for value in values))
     places = {name: float(index) for index, name in enumerate(names)}
     return places, {place: name for name, place in places.items()}
 
@@ -183,7 +182,7 @@ def _scale(sweep: dict[str, Any], key: str) -> str:
     values = sweep["axes"].get(key, sweep["random"].get(key))
     if isinstance(values, dict):
         return str(values["scale"])
-    numbers = sorted(value for value in values if _is_number(value))
+    numbers = sorted(value for value in values if is_number(value))
     if len(numbers) < 3 or numbers[0] <= 0 or numbers[-1] < 20 * numbers[0]:
         return "linear"
     return "log"
@@ -200,15 +199,3 @@ def _number(result: dict[str, Any], name: str) -> float | None:
     if isinstance(value, list) and value:
         value = value[-1]
     return float(value) if isinstance(value, bool | int | float) else None
-
-
-def _is_number(value: Any) -> bool:
-    """Tell whether a value has a place on an axis of numbers."""
-    return isinstance(value, int | float) and not isinstance(value, bool)
-
-
-def _text(value: Any) -> str:
-    """Write a value of an axis."""
-    if _is_number(value):
-        return f"{value:.6g}"
-    return value if isinstance(value, str) else json.dumps(value)

@@ -94,6 +94,13 @@ def begun(sweep: Sweep, folder: SweepFolder, *, retry: bool = False) -> tuple[Pr
         Its folder, which need not be there.
     retry : bool
         Count runs that failed as missing, too.
+
+    Returns
+    -------
+    progress : Progress
+        Results that are there, counted.
+    missing : list of int
+        Numbers of the runs without one, ascending.
     """
     progress, missing = Progress(len(sweep.runs)), []
     for run in sweep.runs:

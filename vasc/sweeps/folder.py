@@ -14,6 +14,7 @@ from typing import Any
 from vasc.config.values import dotted, written
 from vasc.errors import OutputError
 from vasc.sweeps.plan import PlannedRun
+from vasc.whole_files import write_whole
 
 if sys.platform != "win32":
     import fcntl
@@ -34,6 +35,8 @@ class SweepFolder:
     ----------
     path : Path
         The folder.
+    inherited : list of int
+        Open files that workers take over, while the folder is locked.
     """
 
     path: Path
@@ -152,25 +155,6 @@ class SweepFolder:
         raise OutputError(
             f"{self.path}: belongs to another sweep, {old.get('name')}: {what}; choose a new folder"
         )
-
-
-def write_whole(path: Path, text: str) -> None:
-    """Write a file so that it is there as a whole or not at all, whenever the process ends.
-
-    Raises
-    ------
-    OSError
-        If it cannot be written; an old one is then as it was.
-    """
-    new = path.with_name(f".{path.name}.{os.getpid()}.new")
-    try:
-        with new.open("w", encoding="utf-8", newline="") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(new, path)
-    finally:
-        new.unlink(missing_ok=True)
 
 
 def as_text(value: Any) -> str:

@@ -1,12 +1,11 @@
 """The leaves of a sweep in a grid: one axis from left to right, another from top to bottom."""
 
-import json
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from vasc.errors import VascError
 from vasc.render.styles import INK, TEXT_SIZE
 from vasc.sweeps.folder import SweepFolder
-from vasc.sweeps.plan import PlannedRun
+from vasc.sweeps.plan import PlannedRun, value_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -56,14 +55,15 @@ def draw_grid(folder: SweepFolder) -> "Figure | None":
 
 def _draw(panel: "Axes", folder: SweepFolder, run: PlannedRun) -> bool:
     """Draw a leaf; tell whether there is one."""
+    from vasc.analysis.run_widths import widths_of
     from vasc.render import draw_leaf
-    from vasc.render.files import node_widths, widths_of
+    from vasc.render.files import node_widths
     from vasc.timeline import Timeline
 
     panel.set_axis_off()
     try:
         with Timeline(folder.timeline(run.number)) as timeline:
-            widths, step = widths_of(timeline), timeline.last_step
+            widths, step = widths_of(timeline.config), timeline.last_step
             stretched = node_widths(timeline, widths, [step])
             draw_leaf(
                 timeline.frame(),
@@ -94,11 +94,8 @@ def _write_row(panel: "Axes", text: str) -> None:
 
 
 def _text(run: PlannedRun, key: str | None) -> str:
-    """Write the value of an axis."""
-    value: Any = "" if key is None else run.values[key]
-    if isinstance(value, int | float) and not isinstance(value, bool):
-        return f"{value:.6g}"
-    return value if isinstance(value, str) else json.dumps(value)
+    """Write the value of an axis; nothing without one."""
+    return "" if key is None else value_text(run.values[key])
 
 
 def _label(key: str, value: str) -> str:

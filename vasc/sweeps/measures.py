@@ -1,6 +1,6 @@
 """What can be measured of a run of a sweep, by name; read from its timeline alone."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -138,13 +138,14 @@ def _summary(timeline: "Timeline") -> dict[str, Any]:
 
 def _statistics(timeline: "Timeline") -> dict[str, Any]:
     """Measure the veins of the last step."""
-    from vasc.analysis import WidthParameters, run_widths, statistics
+    from vasc.analysis import run_widths, statistics
+    from vasc.analysis.run_widths import widths_of
+    from vasc.analysis.statistics import flattened
 
     widths = None
     if timeline.dimensions == 2:
-        asked = WidthParameters.model_validate(timeline.config.get("widths") or {})
-        widths = run_widths(timeline.frame, timeline.last_step, asked)
-    return dict(_flat(statistics(timeline.frame(), timeline.units, widths=widths)))
+        widths = run_widths(timeline.frame, timeline.last_step, widths_of(timeline.config))
+    return dict(flattened(statistics(timeline.frame(), timeline.units, widths=widths)))
 
 
 def _lineage(timeline: "Timeline") -> dict[str, Any]:
@@ -186,15 +187,6 @@ def _strand(timeline: "Timeline") -> dict[str, Any]:
     from vasc.validation.strands import check_strand
 
     return check_strand(timeline).as_json()
-
-
-def _flat(table: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
-    """Give the values of tables in tables by dotted names."""
-    for name, value in table.items():
-        if isinstance(value, Mapping):
-            yield from _flat(value, f"{above}{name}.")
-        else:
-            yield f"{above}{name}", value
 
 
 _GROUPS: dict[str, Callable[["Timeline"], Mapping[str, Any]]] = {

@@ -93,6 +93,11 @@ def estimate(sweep: Sweep, missing: list[int], n_workers: int) -> Estimate:
         Numbers of the runs that are missing.
     n_workers : int
         Workers that will share them.
+
+    Returns
+    -------
+    Estimate
+        Without times if the first run fails; ``error`` says how.
     """
     number = largest_run(sweep, missing)
     with TemporaryDirectory(prefix="vasc-") as name:

@@ -1,6 +1,7 @@
 """From the parameters of a sweep to its runs: numbered, with a seed and their own values each."""
 
 import itertools
+import json
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -33,11 +34,6 @@ class PlannedRun:
     draw: int
     replicate: int
     seed: int
-
-    @property
-    def name(self) -> str:
-        """Name of its files, without suffix."""
-        return f"{self.number:04d}"
 
     @property
     def overrides(self) -> list[Override]:
@@ -115,3 +111,21 @@ def plan(parameters: SweepParameters) -> list[PlannedRun]:
             seed = spawned_seed(parameters.seed, number)
             runs.append(PlannedRun(number, values, draw, replicate, seed))
     return runs
+
+
+def is_number(value: Any) -> bool:
+    """Tell whether a value has a place on an axis of numbers; a flag has none."""
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def value_text(value: Any) -> str:
+    """Write a value of an axis, as figures name it.
+
+    Examples
+    --------
+    >>> value_text(0.1 + 0.2), value_text("marginal"), value_text([1, 2])
+    ('0.3', 'marginal', '[1, 2]')
+    """
+    if is_number(value):
+        return f"{value:.6g}"
+    return value if isinstance(value, str) else json.dumps(value)

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from vasc.sweeps.folder import SweepFolder, write_whole
+from vasc.sweeps.folder import SweepFolder
 from vasc.sweeps.work import MISSING
+from vasc.whole_files import write_whole
 
 TABLE = "results.csv"
 

@@ -76,6 +76,10 @@ def areole_fate(timeline: Recorded, genealogy: Genealogy, areole: int) -> Areole
     areole : int
         One of them.
 
+    Returns
+    -------
+    AreoleFate
+
     Raises
     ------
     TimelineError
@@ -92,23 +96,13 @@ def areole_fate(timeline: Recorded, genealogy: Genealogy, areole: int) -> Areole
         birth=int(genealogy.births[areole]),
         segment=int(genealogy.segments[areole]),
         parent=int(genealogy.parents[areole]),
-        ancestors=_ancestors(genealogy.parents, areole),
+        ancestors=genealogy.ancestors(areole),
         split=int(genealogy.splits[areole]),
         children=tuple(np.flatnonzero(genealogy.parents == areole).tolist()),
         sources=sources,
         drained=_steps_of(events, EventKind.SOURCE_REMOVED, sources),
         blind_ends=_subjects_of(events, EventKind.VEIN_ENDED_BLINDLY, sources),
     )
-
-
-def _ancestors(parents: Ids, areole: int) -> tuple[int, ...]:
-    """Give the areoles that an areole was split from, nearest first."""
-    found = []
-    # a parent is an earlier row, in a sound file
-    while 0 <= (parent := int(parents[areole])) < areole:
-        found.append(parent)
-        areole = parent
-    return tuple(found)
 
 
 def _subjects_of(events: Mapping[str, NDArray], kind: EventKind, objects: Ids | int) -> Ids:

@@ -56,9 +56,9 @@ def competitors(timeline: Recorded, veins: Veins, source: int | None = None) -> 
     -------
     dict of str to ndarray of shape (k,)
         One row a source and vein, by source, then by ``first``: ``source``; ``vein``, its
-        first node; ``order`` of branching; ``first`` and ``last``, the first and the last step
-        at which a set with one of its nodes was recorded; ``nodes``, how many of its nodes
-        were attracted; ``reached``, true if it, or a branch that it sent toward the source,
+        first node; ``branching_order``; ``first`` and ``last``, the first and the last step at
+        which a set with one of its nodes was recorded; ``nodes``, how many of its nodes were
+        attracted; ``reached``, true if it, or a branch that it sent toward the source,
         was awaited there, was the nearest when the source died, or joined another
         there. Empty columns for a source that never attracted a vein.
 

@@ -13,9 +13,10 @@ from vasc.timeline import competition, vein_loops, veins
 from vasc.timeline.areole_lineage import AreoleFate, areole_fate
 from vasc.timeline.competition import competitors
 from vasc.timeline.frame import require
-from vasc.timeline.genealogy import Genealogy, Loops, genealogy_of
+from vasc.timeline.genealogy import Genealogy, Loops
 from vasc.timeline.life_table import MedianLife, life_table, median_life
 from vasc.timeline.place_history import PlaceHistory, history_at
+from vasc.timeline.run_genealogy import genealogy_of
 from vasc.timeline.source_fates import Fate, SourceFate, fate_columns, fate_table, source_fate
 from vasc.timeline.vein_loops import VeinLoop, loop_of
 from vasc.timeline.veins import Veins, births, births_by_order, veins_of
@@ -182,6 +183,10 @@ class Lineage:
             The place at that step, in D.
         step : int
             The step, the last one when not given.
+
+        Returns
+        -------
+        PlaceHistory
 
         Raises
         ------

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vasc.arrays import NULL, Floats, Ids, Points
 from vasc.errors import TimelineError
 from vasc.network import VeinNetwork
-from vasc.timeline import genealogy
+from vasc.timeline import run_genealogy
 from vasc.timeline.frame import Frame
 from vasc.timeline.genealogy import Genealogy
 from vasc.timeline.veins import Veins
@@ -20,7 +20,7 @@ BESIDE = 1.0
 """Distance to a vein up to which a place off the blade is taken to be at that vein, in D."""
 
 
-class Recorded(genealogy.Recorded, Protocol):
+class Recorded(run_genealogy.Recorded, Protocol):
     """What the history of a place needs of a timeline."""
 
     path: Path
@@ -116,7 +116,7 @@ def history_at(
             f"{timeline.path}: is a stem, and a place of two numbers is one of a blade;"
             " ask for a node or a source"
         )
-    tree = genealogy.genealogy_of(timeline, frame.step)[0]
+    tree = run_genealogy.genealogy_of(timeline, frame.step)[0]
     network = frame.network
     if not network.n_segments:
         raise TimelineError(f"{timeline.path}: there is no vein at step {frame.step}")

@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from vasc.arrays import NULL
 from vasc.events import EventKind
-from vasc.timeline import genealogy
+from vasc.timeline import run_genealogy
 from vasc.timeline.genealogy import Genealogy, Loops
 from vasc.timeline.veins import Veins
 
 
-class Recorded(genealogy.Recorded, Protocol):
+class Recorded(run_genealogy.Recorded, Protocol):
     """What the loop of a vein needs of a timeline."""
 
     @property
@@ -65,7 +65,7 @@ def loop_of(
     veins : Veins
         The veins of its nodes.
     known : tuple of Genealogy and Loops or None
-        What :func:`vasc.timeline.genealogy.genealogy_of` gives.
+        What :func:`vasc.timeline.run_genealogy.genealogy_of` gives.
     node : int
         A node that exists.
 
@@ -83,12 +83,9 @@ def loop_of(
         # the sides of a vein were one areole before it grew, so that any of them leads there
         areole = int(beside[0]) if len(beside) and birth > 0 else NULL
         areole = tree.alive_before(areole, birth)
-    ancestors = []
-    above = areole
-    while above != NULL and (above := int(tree.parents[above])) != NULL:
-        ancestors.append(above)
-    first = [areole, *ancestors][-1]
-    return VeinLoop(node, vein, int(veins.orders[node]), areole, first, tuple(ancestors))
+    ancestors = () if areole == NULL else tree.ancestors(areole)
+    first = (areole, *ancestors)[-1]
+    return VeinLoop(node, vein, int(veins.orders[node]), areole, first, ancestors)
 
 
 def _enclosing(timeline: Recorded, vein: int) -> int:

@@ -110,6 +110,10 @@ def check_strand(timeline: Timeline, source: int | None = None, step: int = -1) 
     step : int
         A recorded step, -1 for the last.
 
+    Returns
+    -------
+    StrandReport
+
     Raises
     ------
     TimelineError

@@ -28,6 +28,11 @@ def relative_neighbors(source: Points, nodes: Points) -> Ids:
     nodes : ndarray of shape (n, 2), float64
         Vein nodes.
 
+    Returns
+    -------
+    ndarray of shape (k,), int32
+        Rows of ``nodes``; empty without nodes.
+
     Examples
     --------
     >>> relative_neighbors(np.zeros(2), np.array([[0.0, 2.0], [1.0, 0.0], [0.0, 3.0]])).tolist()
@@ -56,6 +61,11 @@ def closed_ends(tissue: Tissue, veins: Sequence[Ids], source: int, gap: float = 
         The cell of the source.
     gap : float
         Of cells that are nearer to each other, only the nearest to the source counts, in D.
+
+    Returns
+    -------
+    ndarray of shape (k,), int32
+        Ids of cells.
     """
     cells = np.concatenate(list(veins))
     found = cells[relative_neighbors(tissue.positions[source], tissue.positions[cells])]

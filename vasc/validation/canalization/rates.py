@@ -18,6 +18,11 @@ def wilson(hits: int, n: int, z: float = Z95) -> tuple[float, float]:
     z : float
         Half-width of the interval in standard deviations; 95 % by default.
 
+    Returns
+    -------
+    low, high : float
+        Ends of the interval, shares between 0 and 1.
+
     Examples
     --------
     >>> [round(end, 3) for end in wilson(58, 60)]
@@ -61,6 +66,11 @@ def agreeing_rates(n: int, other_hits: int, other_n: int, least: float) -> tuple
         The other rate.
     least : float
         The p-value of Fisher's exact test from which on two rates agree.
+
+    Returns
+    -------
+    low, high : float
+        Shares between 0 and 1.
     """
     agreeing = [k for k in range(n + 1) if same_rate(k, n, other_hits, other_n) >= least]
     return agreeing[0] / n, agreeing[-1] / n

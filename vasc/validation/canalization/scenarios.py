@@ -62,6 +62,10 @@ def draw(tissue_kind: str, scenario: str, seed: int) -> Scenario:
     seed : int
         Seed of the tissue and of all that is in it.
 
+    Returns
+    -------
+    Scenario
+
     Raises
     ------
     ValueError

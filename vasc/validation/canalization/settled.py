@@ -85,6 +85,10 @@ def settle(
     noise : float
         Half the range of a factor around 1 that walls begin with, drawn by ``seed``.
 
+    Returns
+    -------
+    Settled
+
     Raises
     ------
     RunError

@@ -35,6 +35,7 @@ from vasc.validation.canalization_references import (
     MEASURED,
     WIDTH_DIFFUSE,
     WIDTH_FORMED,
+    HitRate,
 )
 
 CLEAR_LEAST = 0.99
@@ -130,8 +131,7 @@ def against_reference(row: dict[str, Any]) -> dict[str, Any]:
     Both are samples, so that the same true rate leaves the interval of the reference more
     often than in one of twenty cases; Fisher's exact test allows for that.
     """
-    key = (row["tissue"], row["scenario"], row["protocol"])
-    known = next(one for one in HIT_RATES if (one.tissue, one.scenario, one.protocol) == key)
+    known = _reference(row)
     low, high = wilson(known.hits, known.n)
     return {
         "reference_hits": known.hits,
@@ -140,6 +140,12 @@ def against_reference(row: dict[str, Any]) -> dict[str, Any]:
         "reference_high": high,
         "p": same_rate(row["hits"], row["n"], known.hits, known.n),
     }
+
+
+def _reference(row: dict[str, Any]) -> HitRate:
+    """Give the reference measurement of a rate."""
+    key = (row["tissue"], row["scenario"], row["protocol"])
+    return next(one for one in HIT_RATES if (one.tissue, one.scenario, one.protocol) == key)
 
 
 def check(name: str, value: float, low: float, high: float, source: str) -> Check:
@@ -208,12 +214,11 @@ def _of_scheme(progress: Progress) -> Iterator[Check]:
 
 def _of_rates(rows: list[dict[str, Any]]) -> Iterator[Check]:
     """Check rates of hits against those measured before, and what is exact."""
-    measured = {(one.tissue, one.scenario, one.protocol): one for one in HIT_RATES}
     for row in rows:
-        key = (row["tissue"], row["scenario"], row["protocol"])
-        known = measured[key]
+        known = _reference(row)
         low, high = agreeing_rates(row["n"], known.hits, known.n, LEAST_P)
-        name = f"{key[0]} {key[1]}, {key[2]}: canals that reach the nearest vein"
+        case = f"{row['tissue']} {row['scenario']}, {row['protocol']}"
+        name = f"{case}: canals that reach the nearest vein"
         yield check(name, row["hit_rate"], low, high, MEASURED)
     exact = [row for row in rows if row["protocol"] == "facilitated"]
     for tissue in TISSUES:

@@ -18,6 +18,10 @@ def read_stem(timeline: Timeline) -> StemGraph:
     timeline : Timeline
         An open timeline.
 
+    Returns
+    -------
+    StemGraph
+
     Raises
     ------
     TimelineError

@@ -1,14 +1,12 @@
 """Densities of major and minor veins while a leaf grows."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
 from vasc.analysis import WidthParameters, find_sections, vein_orders
-from vasc.analysis.elongation import Elongation, stretched_pipes
 from vasc.analysis.moment import Moment, blade_of
-from vasc.analysis.widths import radii, segment_radii
+from vasc.analysis.run_widths import widths_at
 from vasc.arrays import Floats
 from vasc.timeline import Timeline
 from vasc.validation.leaf_references import MOST_MAJOR
@@ -71,33 +69,14 @@ def densities_of(timeline: Timeline, widths: WidthParameters) -> Densities:
     )
     # the first step with the area; the last of them is the last step of growth
     steps = np.searchsorted(areas, shares * areas[-1] * (1.0 - 1e-12))
-    rows = [_lengths(moment, found) for moment, found in _with_widths(timeline, steps, widths)]
-    lengths = np.array(rows).reshape(-1, 2)
+    moments = widths_at(timeline.frame, steps.tolist(), widths)
+    lengths = np.array([_lengths(moment, found) for moment, found in moments]).reshape(-1, 2)
     return Densities(areas[steps], *(lengths / areas[steps, None]).T)
 
 
 def blade_areas(timeline: Timeline) -> Floats:
     """Give the area of the blade at every recorded step, shape (k,), in D^2."""
     return np.array([blade_of(timeline.frame(k)).area for k in range(timeline.n_frames)])
-
-
-def _with_widths(
-    timeline: Timeline, steps: np.ndarray, widths: WidthParameters
-) -> Iterable[tuple[Moment, Floats]]:
-    """Give moments with the widths of their segments; by elongation all steps are read once."""
-    if widths.rule != "elongation":
-        for step in steps.tolist():
-            moment = timeline.frame(step)
-            yield moment, 2.0 * segment_radii(moment.network, widths)
-        return
-    elongation = Elongation(widths.kappa)
-    for step in range(int(steps[-1]) + 1):
-        moment = timeline.frame(step)
-        elongation.update(moment)
-        if step in steps:
-            pipes = stretched_pipes(moment.network, elongation.widths, widths.exponent)
-            largest = float(pipes.nodes.max(initial=1.0))
-            yield moment, 2.0 * radii(pipes.segments, widths, largest)
 
 
 def _lengths(moment: Moment, widths: Floats) -> tuple[float, float]:

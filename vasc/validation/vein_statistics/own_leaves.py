@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from vasc.analysis.run_widths import widths_of
 from vasc.arrays import Floats
 from vasc.errors import VascError
 from vasc.networks_in import is_network_file, read_network
@@ -21,7 +22,6 @@ from vasc.validation.vein_statistics.samples import (
     LeafSample,
     dalbergia,
     sample_of_run,
-    widths_of,
 )
 from vasc.validation.vein_statistics.suite import LeafReport, Progress
 

@@ -1,6 +1,5 @@
 """Leaves to be judged: networks, simulated or real, and what is measured of them."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -8,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from vasc.analysis import WidthParameters, find_sections, network_statistics, run_widths
+from vasc.analysis import find_sections, network_statistics, run_widths
 from vasc.analysis.junctions import Junctions, find_junctions
 from vasc.analysis.measures import Measured, measure
+from vasc.analysis.run_widths import widths_of
 from vasc.analysis.topology import free_ends
 from vasc.analysis.vein_distance import distances_to_vein, places_in
 from vasc.arrays import Floats
@@ -106,11 +106,6 @@ def sample_of_run(name: str, kind: str, path: Path) -> LeafSample:
         event = (timeline.config.get("mesophyll") or {}).get("kind", NEVER)
     has_event = event != NEVER if kind == "areole" else None
     return LeafSample(name, kind, RealNetwork(network, found, network.lengths, "D"), has_event)
-
-
-def widths_of(config: Mapping[str, Any]) -> WidthParameters:
-    """Give the rule of widths that a config asks for."""
-    return WidthParameters.model_validate(config.get("widths") or {})
 
 
 def dalbergia_folder() -> Path:

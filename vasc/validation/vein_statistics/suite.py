@@ -7,6 +7,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from vasc.analysis.run_widths import widths_of
 from vasc.arrays import Floats
 from vasc.config import Experiment, load, load_text
 from vasc.experiment import run
@@ -27,7 +28,6 @@ from vasc.validation.vein_statistics.samples import (
     LeafSample,
     dalbergia,
     sample_of_run,
-    widths_of,
 )
 
 CLOSED, AREOLE, MATURE, OPEN = (
