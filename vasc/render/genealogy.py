@@ -209,11 +209,7 @@ def _draw_trees(axes: Axes, shown: _Shown, step: int) -> None:
     last = min(last + 0.15 * (last - first) + 1.0, step + 1.0)
     axes.set_xlim(first - 0.08 * (last - first) - 1.0, last)
     highest = float(np.nanmax(heights))
-    figure = axes.get_figure(root=True)
-    assert figure is not None
-    inches = axes.get_position().height * float(figure.get_size_inches()[1])
-    # room for the numbers of the outermost trees, however dense the rows are
-    room = max(1.5, highest * NUMBER / (inches - 2.0 * NUMBER))
+    room = _room_for_numbers(axes, highest)
     axes.set_ylim(-room, highest + room)
     for loop in shown.loops:
         _number(axes, float(tree.births[loop]), float(heights[loop]), loop)
@@ -231,6 +227,14 @@ def _draw_trees(axes: Axes, shown: _Shown, step: int) -> None:
     if n_loops > len(shown.loops):
         what = f"the {len(shown.loops)} first-order loops with most parts, of {n_loops}"
     axes.set_title(f"splits of {what}", fontsize=TEXT_SIZE + 1.0, color=INK)
+
+
+def _room_for_numbers(axes: Axes, highest: float) -> float:
+    """Give the rows that half a number takes above and below the trees, however dense they are."""
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    inches = axes.get_position().height * float(figure.get_size_inches()[1])
+    return max(1.5, highest * NUMBER / (inches - 2.0 * NUMBER))
 
 
 def _draw_key(axes: Axes, shown: _Shown) -> None:
