@@ -261,7 +261,7 @@ def test_a_copy_into_a_folder_that_takes_none_is_refused(tmp_path, monkeypatch, 
         raise PermissionError(13, "Permission denied")
 
     # whoever may write everywhere, as in containers, is not stopped by the folder itself
-    monkeypatch.setattr("pathlib.Path.write_bytes", refuse)
+    monkeypatch.setattr("vasc.config.bundled.write_whole", refuse)
     assert main(["configs", "--copy", "poplar-leaf", "--to", str(tmp_path)]) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert line == (
