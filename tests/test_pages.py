@@ -50,11 +50,10 @@ def extended(tmp_path_factory):
         path.write_text(block)
     (project,) = (block for block in blocks("extending.md", "toml") if "[project]" in block)
     described = tomllib.loads(project)["project"]
-    record = folder / "slow_leaves-1.0.dist-info"
+    name, version = described["name"], described["version"]
+    record = folder / f"slow_leaves-{version}.dist-info"
     record.mkdir()
-    (record / "METADATA").write_text(
-        f"Metadata-Version: 2.1\nName: {described['name']}\nVersion: 1.0\n"
-    )
+    (record / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\n")
     lines = []
     for group, points in described["entry-points"].items():
         lines += [f"[{group}]", *(f"{name} = {target}" for name, target in points.items())]
@@ -77,6 +76,20 @@ def test_a_model_of_your_own_runs_and_verifies(extended):
     assert lengths == pytest.approx([40.0, 41.6, 43.168])
     verified = vasc(extended, "verify", "slow.h5")
     assert verified.returncode == 0, verified.stdout + verified.stderr
+
+
+def test_packages_that_pages_show_have_what_pip_asks_for():
+    pages = [*(ROOT / "docs").rglob("*.md"), ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
+    projects = {
+        page.name: tomllib.loads(block)["project"]
+        for page in pages
+        for block in blocks(page, "toml")
+        if "[project]" in block
+    }
+    assert "extending.md" in projects
+    for page, project in projects.items():
+        given = {"name", "version"} & project.keys()
+        assert given == {"name", "version"}, page
 
 
 def test_a_model_of_your_own_is_checked_like_ours(extended):
@@ -164,6 +177,20 @@ def test_the_tutorial_names_what_there_is():
     assert copied
     names = {path.stem for path in (ROOT / "configs").glob("*.toml")}
     assert set(copied) <= names
+
+
+def test_every_extra_is_on_the_page_of_commands():
+    table = (ROOT / "docs" / "commands.md").read_text().partition("## Extras")[2]
+    told = re.findall(r"^\| `(\w+)` \|", table, flags=re.MULTILINE)
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert sorted(told) == sorted(project["optional-dependencies"])
+
+
+def test_pages_tell_one_way_to_install_an_extra():
+    pages = [*(ROOT / "docs").rglob("*.md"), ROOT / "docs" / "tutorial.ipynb"]
+    told = {page: re.findall(r"pip install .{0,2}\.\[\w+\]", page.read_text()) for page in pages}
+    others = {page.name: found for page, found in told.items() if found}
+    assert others == {"commands.md": ['pip install ".[video]']}
 
 
 def test_every_verb_is_on_the_page_of_commands():

@@ -140,7 +140,7 @@ def test_verify_names_the_step_the_field_and_the_row(canals, recorded, capsys):
     [
         (["show"], ["Three canals", "canalization", "source_removed", "tissue is at rest"]),
         (["show", "--check"], ["keeps to its specification"]),
-        (["events", "--kind", "canals_settled"], ["canals_settled  -1       -1"]),
+        (["events", "--kind", "canals_settled"], ["canals_settled  -        -"]),
         (["lineage", "--source", "0"], ["removed", "nearest_node"]),
         (["lineage", "--node", "3"], ["ancestors", "seed"]),
         (["stats"], ["vein_length", "components"]),

@@ -10,9 +10,10 @@ import pytest
 from reference.stem_run import STEM
 
 from vasc.analysis import WidthParameters, run_node_orders
-from vasc.cli import main
+from vasc.cli import lineage_tables, main
 from vasc.cli.lineage_tables import said
 from vasc.timeline import Timeline
+from vasc.timeline.life_table import MedianLife
 
 TABLES = {
     "--life-table": "life_table",
@@ -102,6 +103,25 @@ def test_an_areole_that_was_found_is_told_like_one_that_was_recorded(leaf, capsy
     assert (told["birth"], told["segment"]) == (tree.births[0], tree.segments[0])
 
 
+def test_lists_say_what_they_hold(leaf, capsys):
+    def shown(*arguments):
+        lines = output(["lineage", leaf, *arguments], capsys).splitlines()
+        return dict(line.split(maxsplit=1) for line in lines)
+
+    def told(*arguments):
+        return json.loads(output(["lineage", leaf, *arguments, "--json"], capsys))
+
+    assert told("--areole", "0")["ancestors"] == []
+    assert shown("--areole", "0")["ancestors"] == "none"
+    seed, tip = told("--node", "0"), told("--node", "1")
+    assert (seed["ancestors"], tip["ancestors"]) == ([], [0])
+    assert shown("--node", "0")["ancestors"] == "none"
+    assert shown("--node", "1")["ancestors"] == "node 0"
+    n_nodes = len(seed["descendants"])
+    assert shown("--node", "0")["descendants"].startswith(f"{n_nodes:,} nodes: 1, 2, 3, ")
+    assert ", " in shown("--node", "0")["position_at_birth"]
+
+
 @pytest.mark.parametrize(
     ("arguments", "part"),
     [
@@ -145,17 +165,46 @@ def test_a_stem_has_tables_of_its_veins_and_no_areoles(tmp_path, capsys):
     for option in (["--genealogy"], ["--loop", "0"], ["--areole", "0"]):
         assert main(["lineage", run, *option]) == 2
         assert "is a stem" in capsys.readouterr().err
+    assert main(["lineage", run, "--at", "0,10"]) == 2
+    assert "a place of two numbers is one of a blade" in capsys.readouterr().err
 
 
-def test_the_median_life_stands_below_the_life_table(leaf, capsys):
+def test_the_median_life_stands_above_the_life_table(leaf, capsys):
     with Timeline(leaf) as timeline:
         median = timeline.lineage.median_life()
-    last = output(["lineage", leaf, "--life-table"], capsys).splitlines()[-1]
-    assert last.startswith(f"median life: {median.age} steps (95 % interval {median.low} to ")
+    first = output(["lineage", leaf, "--life-table"], capsys).splitlines()[0]
+    assert first.startswith(f"median life: {median.age} steps (95 % interval {median.low} to ")
     told = json.loads(output(["lineage", leaf, "--life-table", "--json"], capsys))["median"]
     assert (told["age"], told["n"]) == (median.age, median.n)
     not_yet = said(replace(median, age=None, n=4, deaths=1, censored=3, least_survival=0.75))
     assert "not reached, 0.75 live on" in not_yet
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "words"),
+    [
+        (None, None, "(without a 95 % interval)"),
+        (2, None, "(95 % interval from 2 on, without an upper end)"),
+        (None, 9, "(95 % interval up to 9, without a lower end)"),
+        (2, 9, "(95 % interval 2 to 9)"),
+    ],
+)
+def test_the_median_life_is_said_in_whole_words(low, high, words):
+    one = MedianLife(1, low, high, n=1, deaths=1, censored=0, least_survival=0.0)
+    assert (
+        said(one) == f"median life: 1 step {words}; 1 source: 1 removed, 0 alive at the last step"
+    )
+
+
+def test_people_are_shown_the_beginning_of_a_long_table(leaf, monkeypatch, capsys):
+    monkeypatch.setattr(lineage_tables, "LONGEST_TABLE", 7)
+    n_rows = json.loads(output(["lineage", leaf, "--fates", "--json"], capsys))["found"]
+    assert n_rows > 7
+    lines = output(["lineage", leaf, "--fates"], capsys).splitlines()
+    assert len(lines) == 7 + 2
+    assert lines[-1].startswith(f"... and {n_rows - 7:,} more (--limit N shows N rows")
+    whole = output(["lineage", leaf, "--fates", "--limit", str(n_rows)], capsys).splitlines()
+    assert len(whole) == n_rows + 1
 
 
 def test_survival_is_drawn(leaf, tmp_path, capsys):

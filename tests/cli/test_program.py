@@ -11,6 +11,7 @@ import vasc
 from vasc.cli import configs, main
 from vasc.cli.program import VERBS
 from vasc.errors import RunError, TimelineError
+from vasc.events import EventKind, StopReason
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = [sys.executable, "-m", "vasc"]
@@ -54,6 +55,23 @@ def test_the_program_alone_shows_its_verbs(capsys):
     text = capsys.readouterr().out
     assert [verb for verb in NAMES if f"\n  {verb} " not in text] == []
     assert "Example:\n  vasc run poplar-leaf" in text
+
+
+def test_a_group_alone_shows_its_verbs(capsys):
+    assert main(["check"]) == 0
+    said = capsys.readouterr()
+    assert said.err == ""
+    assert "\n  sequence " in said.out
+    assert "\n  vasc check strand canals.h5\n" in said.out
+
+
+def test_the_help_of_events_tells_what_each_kind_is_about(capsys):
+    assert main(["events", "--help"]) == 0
+    text = capsys.readouterr().out.partition("by kind")[2].partition("Arguments:")[0]
+    words = set(text.replace(",", " ").split())
+    assert {kind.name.lower() for kind in EventKind} <= words
+    for reason in StopReason:
+        assert f"{reason.value} {reason.name.lower()}" in text
 
 
 def test_the_version_is_the_package_s(capsys):
@@ -243,7 +261,7 @@ def test_a_copy_into_a_folder_that_takes_none_is_refused(tmp_path, monkeypatch, 
         raise PermissionError(13, "Permission denied")
 
     # whoever may write everywhere, as in containers, is not stopped by the folder itself
-    monkeypatch.setattr("pathlib.Path.write_bytes", refuse)
+    monkeypatch.setattr("vasc.config.bundled.write_whole", refuse)
     assert main(["configs", "--copy", "poplar-leaf", "--to", str(tmp_path)]) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert line == (

@@ -73,6 +73,32 @@ def test_values_set_on_the_command_line_are_run_and_recorded(here):
     assert main(["verify", "leaf.h5"]) == 0
 
 
+def test_a_title_tells_which_values_it_was_not_given_for(here, capsys):
+    def shown():
+        assert main(["show", "leaf.h5"]) == 0
+        return capsys.readouterr().out.splitlines()[0]
+
+    def recorded():
+        assert main(["show", "leaf.h5", "--json"]) == 0
+        found = json.loads(capsys.readouterr().out)
+        return found["config"]["title"], found["changed"]
+
+    run = ["run", "leaf.toml", "--no-figure", "-q", "--force", "--set", "stop.steps=2"]
+    assert main([*run, "--seed", "9", "--set", "kind=open"]) == 0
+    title = "A small leaf with loops"
+    assert shown() == f'leaf.h5: {title}, with stop.steps = 2, kind = "open"'
+    assert recorded() == (title, ["stop.steps = 2", 'kind = "open"', "seed = 9"])
+    assert main([*run, "--set", "title=A short run"]) == 0
+    assert shown() == "leaf.h5: A short run"
+
+
+def test_an_unchanged_config_keeps_its_title_and_text(recorded, capsys):
+    assert main(["show", str(recorded / "leaf.h5")]) == 0
+    assert capsys.readouterr().out.splitlines()[0].endswith(": A small leaf with loops")
+    with Timeline(recorded / "leaf.h5") as timeline:
+        assert timeline.config_toml == (recorded / "leaf.toml").read_text()
+
+
 def test_a_file_is_replaced_when_forced(here):
     arguments = ["run", "leaf.toml", "-q", "--set", "growth.final_length=25"]
     assert main(arguments) == 0

@@ -87,6 +87,15 @@ class TestCompare:
         ratio = real["mst_ratio"] / run["mst_ratio"]
         assert float(lines["mst_ratio"][-3]) == pytest.approx(ratio, abs=5e-4)
         assert "orders.1.length" in lines
+        # whichever side has more of them, orders and streams are with their kin
+        for kin in ("orders.", "strahler_streams."):
+            places = [k for k, name in enumerate(lines) if name.startswith(kin)]
+            numbers = [int(name.split(".")[1]) for name in lines if name.startswith(kin)]
+            assert places == list(range(places[0], places[0] + len(places)))
+            assert numbers == sorted(numbers)
+        assert len(run["strahler_streams"]) != len(real["strahler_streams"])
+        counts = [f"{side['murray_junctions']:,}" for side in (run, real)]
+        assert lines["murray_exponent_median"][-2:] == counts
         # the blade of the run, and of the leaf what its veins enclose
         assert found["on_different_areas"][0] == "vein_density"
         assert lines["density_x_sqrt_areole"][-3] == "-"

@@ -1,8 +1,10 @@
 """``vasc sweep``: what it says of a plan, and of what came of it."""
 
+import itertools
 import json
 import re
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,6 +13,8 @@ from sweeps.sweep_files import write
 from vasc.cli import main
 from vasc.cli.sweep_progress import duration, line_of
 from vasc.sweeps import Progress, load_sweep
+from vasc.sweeps.pilot import largest_run
+from vasc.sweeps.plan import PlannedRun
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -29,7 +33,9 @@ def test_a_plan_tells_what_would_run_and_leaves_nothing(here, capsys):
     assert text.startswith("small: Small leaves\n")
     assert "arrival.kill_distance  2 values: 1, 3" in text
     assert re.search(r"^runs +8$", text, flags=re.MULTILINE)
-    assert re.search(r"^the first run +[\d.]+ (s|min.*), [\d.]+ [kM]B$", text, flags=re.MULTILINE)
+    said = r"^run 3, expected to be largest +[\d.]+ (s|min.*), [\d.]+ [kM]B$"
+    assert re.search(said, text, flags=re.MULTILINE)
+    assert "if all are like run 3\n" in text
     assert "with 2 workers" in text
     assert sorted(path.name for path in here.iterdir()) == ["leaf.toml", "small.toml"]
 
@@ -46,11 +52,31 @@ def test_a_plan_as_json_has_every_run(here, capsys):
     assert found["seconds"] == pytest.approx(found["start_seconds"] + found["run_seconds"])
 
 
+@pytest.mark.parametrize(
+    ("values", "number"),
+    [
+        ({"arrival.kill_distance": [3.0, 1.0]}, 2),
+        ({"growth.final_length": [30.0, 60.0, 40.0]}, 2),
+        ({"growth.final_length": [30.0, 60.0], "arrival.kill_distance": [3.0, 1.0]}, 4),
+    ],
+)
+def test_the_largest_run_is_found_from_the_config(here, values, number):
+    loaded = load_sweep("small.toml")
+    runs = [
+        PlannedRun(k, dict(zip(values, choice, strict=True)), 1, 1, seed=k)
+        for k, choice in enumerate(itertools.product(*values.values()), start=1)
+    ]
+    sweep = replace(loaded, runs=tuple(runs))
+    assert largest_run(sweep, [run.number for run in runs]) == number
+    # only runs that are missing are made
+    assert largest_run(sweep, [1]) == 1
+
+
 def test_a_plan_of_runs_that_fail_says_why(here, capsys):
     text = (here / "small.toml").read_text()
     (here / "small.toml").write_text(text.replace("summary.nodes", "check.connectivity.pair"))
     assert main(["sweep", "small.toml", "--plan"]) == 0
-    assert "the first run fails: check.connectivity: " in capsys.readouterr().out
+    assert "\nrun 3 fails: check.connectivity: " in capsys.readouterr().out
 
 
 def test_the_line_of_progress_tells_how_long(here):

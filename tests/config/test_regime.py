@@ -50,7 +50,8 @@ def test_reticulate_as_printed_is_a_fan():
         (0.8, "pinnate", False),
         (1.5, "ladder", False),
         (3.0, "ladder", False),
-        (6.5, "fan", True),
+        (5.0, "between a leaf with a midvein and a fan", False),
+        (6.5, "the margin outruns the veins: a fan", True),
         (0.05, "pinnate", True),
     ],
 )

@@ -79,7 +79,20 @@ def test_each_part_may_be_seeded_at_its_lowest_point(tmp_path):
     found = blade(tmp_path, file="ab.wkt", attachment=(4.0, 0.0), seeds="lowest", length=5.0)
     np.testing.assert_allclose(found.seeds, [[-4.0, 0.0], [3.0, 0.0]], atol=1e-9)
     with pytest.raises(OutlineError, match=r"^domain.seeds: none in the part \(ring 2\)"):
-        blade(tmp_path, file="ab.wkt", attachment=(4.0, 0.0))
+        blade(tmp_path, file="ab.wkt", attachment=(4.0, 0.0), seeds=[(0.0, 0.0)])
+
+
+def test_several_outlines_in_a_file_are_told_in_its_own_coordinates(tmp_path):
+    paths = ("M10 190 L60 190 L35 10 Z M30 150 L40 150 L35 140 Z", "M110 190 L160 190 L135 20 Z")
+    drawn = "".join(f'<path d="{path}"/>' for path in paths)
+    (tmp_path / "two.svg").write_text(f'<svg xmlns="http://www.w3.org/2000/svg">{drawn}</svg>')
+    with pytest.raises(OutlineError) as error:
+        blade(tmp_path, file="two.svg")
+    assert str(error.value).startswith(
+        'domain.file = "two.svg": the file has 2 outlines, from (10, 10) to (60, 190),'
+        " from (110, 20) to (160, 190); draw one path, or join them;"
+    )
+    assert len(blade(tmp_path, file="two.svg", seeds="lowest").rings) == 3
 
 
 def test_smoothing_passes_through_every_corner_without_kinks():

@@ -136,6 +136,28 @@ def test_an_open_check_is_neither_framed_nor_counted_as_failed(suite):
     assert "cannot be decided" in sheet.get_suptitle()
 
 
+@pytest.mark.parametrize("number", [12, 13])
+def test_the_symbol_of_a_largest_number_is_whole(suite, number):
+    controls = {
+        name: {key: None if value is None else 0.9 + 1e-3 * row for key, value in one.items()}
+        for row, (name, one) in enumerate(suite["curves"]["controls"].items())
+    }
+    alike = suite | {"curves": suite["curves"] | {"controls": controls}}
+    n_drawn = 0
+    for ax in draw_leaf_check(alike, number).axes:
+        if not ax.get_xlabel().endswith("open: widths shuffled"):
+            continue
+        points = ax.figure.dpi / 72.0
+        right = ax.get_window_extent().x1
+        for line in ax.lines:
+            if line.get_marker() in "osDv^":
+                places = ax.transData.transform(line.get_xydata())[:, 0]
+                reach = (line.get_markersize() + line.get_markeredgewidth()) / 2.0
+                assert places.max() + reach * points <= right
+                n_drawn += 1
+    assert n_drawn
+
+
 def test_densities_are_drawn_over_what_the_check_asks(suite):
     wider = [
         one | ({"low": 0.0, "high": 0.4} if one["what"].startswith("minor vein") else {})

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.figure import Figure
 
 from vasc.config import load
 from vasc.errors import VascError
@@ -10,7 +11,7 @@ from vasc.events import EventKind
 from vasc.experiment import run
 from vasc.render import draw_births, draw_genealogy, draw_survival
 from vasc.render.births import MOST_BINS, bin_width
-from vasc.render.genealogy import MOST_TREES, _shown
+from vasc.render.genealogy import MOST_TREES, _draw_trees, _shown
 from vasc.timeline import Genealogy, Timeline
 from vasc.timeline.life_table import life_table, median_life
 
@@ -208,3 +209,25 @@ def test_a_median_that_is_not_reached_is_said_and_the_censored_are_marked():
 def test_without_a_source_there_is_no_survival():
     with pytest.raises(VascError, match="no source appeared"):
         draw_survival(Watched([], [], 10))
+
+
+@pytest.mark.parametrize("n_parts", [2, 40, 2000])
+def test_numbers_of_the_outermost_trees_are_whole(n_parts):
+    # a loop in parts between two that are whole
+    n_loops = 3
+    parents = np.array([-1] * n_loops + [1] * n_parts, dtype=np.int32)
+    steps = np.arange(len(parents), dtype=np.int32)
+    splits = np.full(len(parents), -1, dtype=np.int32)
+    splits[1] = n_loops
+    tree = Genealogy(steps, parents, steps, splits, {})
+    figure = Figure(figsize=(5.0, 5.0))
+    axes = figure.add_axes((0.1, 0.2, 0.85, 0.7))
+    _draw_trees(axes, _shown(tree), len(parents))
+    figure.draw_without_rendering()
+    edges = axes.get_window_extent()
+    numbers = [text for text in axes.texts if text.get_text() in {"0", "1", "2"}]
+    assert len(numbers) == n_loops
+    for text in numbers:
+        extent = text.get_bbox_patch().get_window_extent()
+        assert edges.y0 <= extent.y0
+        assert extent.y1 <= edges.y1

@@ -1,13 +1,17 @@
 """Stems in three dimensions: what is near hides what is far, and where all of it is."""
 
+from dataclasses import dataclass
+
 import matplotlib.image
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 from reference.stem_run import STEM, recorded_in
 
+from vasc.config.changes import heading
 from vasc.errors import TimelineError, VascError
 from vasc.render import StemStyle, animate, draw_stem, render
+from vasc.render.stems import LINE, title_of
 from vasc.render.tubes import OVERSAMPLING, Spheres, paint, swept
 from vasc.timeline import Timeline
 from vasc.timeline.stems import recorded_stem
@@ -174,3 +178,24 @@ kill_distance = 1.0
 """
     (tmp_path / "leaf").mkdir()
     return recorded_in(tmp_path / "leaf", text, "leaf")
+
+
+@dataclass
+class Titled:
+    """What a title is told from."""
+
+    config: dict[str, str]
+    config_toml: str
+
+
+def test_values_set_outside_of_the_config_stand_below_its_title():
+    config = {"title": "A stem"}
+    assert title_of(Titled(config, "")) == "A stem"
+    assert title_of(Titled(config, heading(["seed = 3"]))) == "A stem"
+    changed = heading(["placement.rise = 2.0", "seed = 3"])
+    assert title_of(Titled(config, changed)) == "A stem\nwith placement.rise = 2.0"
+    many = heading(f"placement.key_{k} = {k}" for k in range(20))
+    title, line = title_of(Titled(config, many)).split("\n")
+    assert title == "A stem"
+    assert line.endswith(" ...")
+    assert len(line) <= LINE

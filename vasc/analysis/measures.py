@@ -146,12 +146,14 @@ class Measured:
         junctions = find_junctions(self.sections).long(self.sections.reach)
         off = np.degrees(np.abs(junctions.widest_angles - balanced_angles(junctions.widths)))
         exponents = murray_exponents(junctions.widths)
+        exponents = exponents[~np.isnan(exponents)]
         return {
             "bohn_junctions": junctions.n_junctions,
             "bohn_residual_median": median(junctions.residuals),
             "bohn_residual_shuffled": median(junctions.shuffled_residuals(self.seed)),
             "bohn_angle_error_median": median(off),
-            "murray_exponent_median": median(exponents[~np.isnan(exponents)]),
+            "murray_junctions": len(exponents),
+            "murray_exponent_median": median(exponents),
         }
 
     def _hierarchy_numbers(self) -> Numbers:

@@ -183,6 +183,7 @@ SAMPLES = {
     "bohn_residual_median": "bohn_junctions",
     "bohn_residual_shuffled": "bohn_junctions",
     "bohn_angle_error_median": "bohn_junctions",
+    "murray_exponent_median": "murray_junctions",
     "loop_asymmetry": "areoles",
     "loop_asymmetry_shuffled": "areoles",
     "loop_asymmetry_weighted": "areoles",

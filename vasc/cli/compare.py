@@ -64,7 +64,7 @@ def rows_of(one: dict[str, Any], other: dict[str, Any]) -> Iterator[tuple[Any, .
     units = [numbers["length_unit"] for numbers in (one, other)]
     apart = on_different_areas(one, other)
     flat = [dict(flattened(numbers)) for numbers in (one, other)]
-    for name in dict.fromkeys([*flat[0], *flat[1]]):
+    for name in in_order([*flat[0], *flat[1]]):
         key = name.rpartition(".")[2]
         values = flat[0].get(name), flat[1].get(name)
         is_comparable = name not in apart and (units[0] == units[1] or key not in POWERS)
@@ -74,6 +74,25 @@ def rows_of(one: dict[str, Any], other: dict[str, Any]) -> Iterator[tuple[Any, .
             ratio = f"{values[1] / values[0]:.3f}"
         counts = (_sample(numbers, name) for numbers in flat)
         yield name, _units(key, units), *values, ratio, *counts
+
+
+def in_order(names: list[str]) -> list[str]:
+    """Give each name once: as they come, but kin together, and numbered kin by number.
+
+    Examples
+    --------
+    >>> in_order(["orders.1", "orders.3", "cycles", "orders.2", "streams.1"])
+    ['orders.1', 'orders.2', 'orders.3', 'cycles', 'streams.1']
+    """
+    beginnings = (name.split(".")[: k + 1] for name in names for k in range(name.count(".") + 1))
+    ranks = {tuple(one): rank for rank, one in reversed(list(enumerate(beginnings)))}
+
+    def place(name: str) -> list[int]:
+        words = name.split(".")
+        ranked = enumerate(words, start=1)
+        return [int(word) if word.isdigit() else ranks[tuple(words[:k])] for k, word in ranked]
+
+    return sorted(dict.fromkeys(names), key=place)
 
 
 def on_different_areas(one: dict[str, Any], other: dict[str, Any]) -> list[str]:

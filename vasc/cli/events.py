@@ -29,7 +29,31 @@ def events(
     as_csv: Annotated[bool, typer.Option("--csv", help="Write CSV.")] = False,
     as_json: AsJson = False,
 ) -> None:
-    """List the events of a run: sources placed, veins joined, loops closed, ..."""
+    """List the events of a run: sources placed, veins joined, loops closed, ...
+
+    Subject and object are rows of the tables of the run. They are, by kind:
+
+    \b
+    source_placed       source / -
+    source_tagged       source / node that it waits for
+    source_removed      source / node, the nearest then
+    source_enclosed     source / areole in which it appeared
+    vein_initiated      node, the first of the vein / node, its parent
+    vein_joined         segment between two veins / source where they met
+    vein_ended_blindly  node at the end / source that it reached
+    loop_closed         segment that closed it / source
+    stall_resolved      node whose pulls cancelled / source that it took
+    segment_refined     segment that two replace / node that halves it
+    node_retired        node whose corner was cut / -
+    strand_extended     canal / node, the new tip of its strand
+    canal_retargeted    canal / node that it leads to from now on
+    areole_born         areole / segment that closed it
+    areole_split        areole / segment that divides it
+    vortex_formed       cell / -
+    run_finished        reason / -: 0 no_sources, 1 nothing_pulled, 2 livelock, 3 step_limit,
+                        4 at_rest
+    growth_ended, mesophyll_event, canals_settled, canals_unsettled    - / -
+    """  # noqa: D301 - the mark keeps the lines apart
     from vasc.cli.printing import print_json, print_table
     from vasc.timeline import Timeline
 
@@ -47,7 +71,7 @@ def events(
         writer.writerow(HEADER)
         writer.writerows(rows)
     else:
-        print_table(HEADER, rows)
+        print_table(HEADER, [[None if one == -1 else one for one in row] for row in rows])
         if len(rows) < n_found:
             typer.echo(f"... and {n_found - len(rows):,} more")
 

@@ -16,8 +16,20 @@ if TYPE_CHECKING:
 LONGEST_LIST = 12
 """Ids of a list that are shown to people; JSON holds all."""
 
-MODEL_RECORDS = ("sources", "drained", "blind_ends")
-"""What is known of areoles only where the model records them."""
+LISTED = {
+    "--node": {"ancestors": "node", "descendants": "node"},
+    "--source": {"awaited_nodes": "node", "joins": "segment", "nodes": "node"},
+    "--areole": {
+        "ancestors": "areole",
+        "children": "areole",
+        "sources": "source",
+        "drained": "step",
+        "blind_ends": "node",
+    },
+    "--loop": {"ancestors": "areole"},
+    "--at": {"areoles": "areole", "areole_births": "step"},
+}
+"""What the numbers of the lists in an answer are."""
 
 OPTIONS = {"areoles": "--genealogy"}
 """Options whose table is called otherwise."""
@@ -84,13 +96,13 @@ def lineage(
         "areoles": genealogy,
         "competitors": competitors is not None,
     }
-    asked = {name: (tell, value) for name, tell, value in ids if value is not None}
+    answers = {name: (tell, value) for name, tell, value in ids if value is not None}
     tables = [name for name, is_asked in flags.items() if is_asked]
     options = [OPTIONS.get(name, "--" + name.replace("_", "-")) for name in tables]
-    _check_choice([*asked, *options])
+    _check_choice([*answers, *options])
     if step is not None and at is None:
         raise typer.BadParameter("--step is for --at")
-    if as_csv and (as_json or asked):
+    if as_csv and (as_json or answers):
         raise typer.BadParameter("--csv is for tables, and excludes --json")
     with Timeline(path) as timeline:
         # refuses a run without a step
@@ -99,12 +111,13 @@ def lineage(
             table = lineage_tables.asked_for(timeline, tables[0], competitors)
             lineage_tables.write(tables[0], table, limit, as_csv=as_csv, as_json=as_json)
             return
-        ((tell, value),) = asked.values()
+        ((asked, (tell, value)),) = answers.items()
         found = tell(timeline, value)
     if as_json:
         print_json(found)
     else:
-        print_pairs({name: _shortened(value, name) for name, value in found.items()})
+        kinds = LISTED[asked]
+        print_pairs({name: _shortened(value, kinds.get(name)) for name, value in found.items()})
 
 
 def _check_choice(given: list[str]) -> None:
@@ -226,14 +239,18 @@ def _known(number: int) -> int | None:
     return None if number < 0 else int(number)
 
 
-def _shortened(value: Any, name: str) -> Any:
-    """Give a long list as its number and its first entries."""
-    if value is None and name in MODEL_RECORDS:
+def _shortened(value: Any, kind: str | None) -> Any:
+    """Give a list of ids or steps as what they are, how many, and the first of them."""
+    if value is None and kind is not None:
         return "not recorded"
     if not isinstance(value, list):
         return value
-    if value and isinstance(value[0], float):
+    if kind is None:
         return ", ".join(f"{number:.6g}" for number in value)
-    first = ", ".join(str(number) for number in value[:LONGEST_LIST])
+    if not value:
+        return "none"
+    first = ", ".join("-" if one is None else str(one) for one in value[:LONGEST_LIST])
+    if len(value) == 1:
+        return f"{kind} {first}"
     more = ", ..." if len(value) > LONGEST_LIST else ""
-    return f"{len(value):,}" + (f": {first}{more}" if value else "")
+    return f"{len(value):,} {kind}s: {first}{more}"

@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from vasc.timeline import Timeline
     from vasc.timeline.life_table import MedianLife
 
+LONGEST_TABLE = 40
+"""Rows that people are shown without a limit; CSV and JSON hold all."""
+
 NEVER_NULL = {"time", "height", "survival", "standard_error", "low", "high", "median"}
 """Columns of real numbers, in which -1 would be a number like others."""
 
@@ -79,30 +82,42 @@ def write(
             found["median"] = _in_json(median_life(table))
         print_json(found)
     else:
+        if name == "life_table":
+            typer.echo(f"{said(median_life(table))}\n")
         shown = births_by_order(table) if name == "births" else table
-        print_table(list(shown), rows(shown, limit))
-        n_shown = len(next(iter(shown.values())))
-        if limit is not None and limit < n_shown:
-            typer.echo(f"... and {n_shown - limit:,} more")
+        at_most = LONGEST_TABLE if limit is None else limit
+        print_table(list(shown), rows(shown, at_most))
+        n_more = len(next(iter(shown.values()))) - at_most
+        if n_more > 0:
+            how = " (--limit N shows N rows; --csv and --json give all)" if limit is None else ""
+            typer.echo(f"... and {n_more:,} more{how}")
         if name == "competitors":
             typer.echo(f"\n{RECORDED}")
-        if name == "life_table":
-            typer.echo(f"\n{said(median_life(table))}")
 
 
 def said(median: "MedianLife") -> str:
     """Say the median of a life table in one line."""
-    of = (
-        f"of {median.n:,} sources, {median.deaths:,} of which died and {median.censored:,} lived"
-        " at the last step"
-    )
     if not median.n:
         return "median life: none, for there is no source"
+    sources = "1 source" if median.n == 1 else f"{median.n:,} sources"
+    of = f"{sources}: {median.deaths:,} removed, {median.censored:,} alive at the last step"
     if median.age is None:
         left = f"{median.least_survival:.3g} live on at the greatest age"
         return f"median life: not reached, {left}; {of}"
-    low, high = ("not reached" if age is None else f"{age:,}" for age in (median.low, median.high))
-    return f"median life: {median.age:,} steps (95 % interval {low} to {high}); {of}"
+    if median.low is None and median.high is None:
+        interval = "without a 95 % interval"
+    elif median.high is None:
+        interval = f"95 % interval from {median.low:,} on, without an upper end"
+    elif median.low is None:
+        interval = f"95 % interval up to {median.high:,}, without a lower end"
+    else:
+        interval = f"95 % interval {median.low:,} to {median.high:,}"
+    return f"median life: {_steps(median.age)} ({interval}); {of}"
+
+
+def _steps(number: int) -> str:
+    """Give a number of steps in words."""
+    return "1 step" if number == 1 else f"{number:,} steps"
 
 
 def _in_json(median: "MedianLife") -> dict[str, Any]:

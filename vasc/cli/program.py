@@ -75,12 +75,21 @@ app = typer.Typer(
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
 )
+
+
+def _help_alone(context: typer.Context) -> None:
+    """Show the help of a group that is given without a verb."""
+    if context.invoked_subcommand is None:
+        typer.echo(context.get_help())
+
+
 for _module in VERBS:
     _name = _module.__name__.rpartition(".")[2]
     _verb = interruptible(getattr(_module, _name))
     app.command(_name, cls=Verb, epilog=examples(_module.EXAMPLES))(_verb)
 for _group, _verbs in GROUPS:
-    _below = typer.Typer(rich_markup_mode=None, no_args_is_help=True)
+    _below = typer.Typer(rich_markup_mode=None)
+    _below.callback(invoke_without_command=True)(_help_alone)
     for _name, _lines in _verbs.items():
         _verb = interruptible(getattr(_group, _name))
         _below.command(_name, cls=Verb, epilog=examples(_lines))(_verb)

@@ -42,6 +42,7 @@ def show(
 
 def described(timeline: "Timeline") -> dict[str, Any]:
     """Give what ``show --json`` promises to scripts."""
+    from vasc.config.changes import changes_of
     from vasc.config.loading import FILES_KEY
     from vasc.timeline.layout import FORMAT
 
@@ -69,6 +70,7 @@ def described(timeline: "Timeline") -> dict[str, Any]:
         "events": counts,
         "wall_seconds": sum(float(seconds.get("total", 0.0)) for seconds in sessions),
         "config": config,
+        "changed": changes_of(timeline.config_toml),
         "evidence": _evidence(config),
     }
 
@@ -110,11 +112,14 @@ def _print(timeline: "Timeline", path: Path) -> None:
     """Write the same for people."""
     from vasc.cli.printing import file_size, print_pairs, printable
     from vasc.cli.summary import reason_of
+    from vasc.config.changes import title_with_changes
 
     found = in_words_of_the_model(described(timeline))
     config, events = found.pop("config"), found.pop("events")
     reason = found.pop("stop_reason")
-    typer.echo(f"{path}: {printable(str(config.get('title') or 'untitled'))}")
+    del found["changed"]
+    title = title_with_changes(str(config.get("title") or "untitled"), timeline.config_toml)
+    typer.echo(f"{path}: {printable(title)}")
     if config.get("reference"):
         typer.echo(f"after {printable(str(config['reference']))}")
     for sentence in found.pop("evidence"):

@@ -37,7 +37,7 @@ def sweep(
     ] = None,
     plan: Annotated[
         bool,
-        typer.Option("--plan", help="Run the first run alone, elsewhere; tell time and size."),
+        typer.Option("--plan", help="Make the largest run alone, elsewhere; tell time and size."),
     ] = False,
     retry: Annotated[
         bool, typer.Option("--retry", help="Make the runs that failed once more, too.")
@@ -127,7 +127,7 @@ def _tell_plan(
     folder = SweepFolder(output)
     folder.check(loaded.description())
     progress, missing = begun(loaded, folder, retry=retry)
-    found = estimate(loaded, len(missing), min(workers or n_processors(), max(len(missing), 1)))
+    found = estimate(loaded, missing, min(workers or n_processors(), max(len(missing), 1)))
     if as_json:
         runs = [run.as_json() for run in loaded.runs]
         print_json(
@@ -164,14 +164,15 @@ def _print_plan(loaded: "Sweep", n_there: int, found: "Estimate") -> None:
         }
     )
     if found.error:
-        typer.echo(f"\nthe first run fails: {found.error}")
+        typer.echo(f"\nrun {found.number} fails: {found.error}")
         return
     typer.echo()
     print_pairs(
         {
-            "the first run": f"{duration(found.run_seconds)}, {file_size(found.run_bytes)}",
+            f"run {found.number:,}, expected to be largest": f"{duration(found.run_seconds)},"
+            f" {file_size(found.run_bytes)}",
             "all that is missing": f"about {duration(found.seconds)} with {found.n_workers}"
-            f" workers, {file_size(found.bytes)}, if all are like the first",
+            f" workers, {file_size(found.bytes)}, if all are like run {found.number:,}",
         }
     )
 

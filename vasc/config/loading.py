@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from vasc.config.attachments import missing_files, packed, refuse_referenced, unpacked
 from vasc.config.bundled import find_config
+from vasc.config.changes import heading
 from vasc.config.limits import blade_problems, size_problems
 from vasc.config.overrides import Override, overridden
 from vasc.config.reading import parse, read_text, refuse_deep
@@ -263,5 +264,5 @@ def _rewritten(tables: dict[str, Any], overrides: list[Override]) -> str:
     """Write changed tables as TOML, headed by what was changed."""
     import tomli_w
 
-    head = "".join(f"# set outside the file: {assignment(*change)}\n" for change in overrides)
+    head = heading(assignment(*change) for change in overrides)
     return f"{head}\n{tomli_w.dumps(tables)}"

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 MARGINAL_CLASSES = (
     (1.0, "the tips of veins keep up with the margin: pinnate, with secondaries to the margin"),
     (4.0, "a smooth midvein, arched secondaries and ladder-like tertiaries behind the margin"),
+    (6.0, "between a leaf with a midvein and a fan: the margin begins to outrun the veins"),
     (math.inf, "the margin outruns the veins: a fan from the petiole, as without growth"),
 )
 """Pattern of a marginally growing leaf by v, each up to the number before it."""

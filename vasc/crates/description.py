@@ -14,6 +14,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from vasc.config.changes import title_with_changes
 from vasc.crates.citation import FIRST_AUTHOR, LICENSE, WORKS
 from vasc.export.words import plain
 from vasc.timeline import Timeline
@@ -97,7 +98,8 @@ def _describe_root(
 ) -> None:
     """Say what the run is, who made it and when, and what to cite."""
     root, config = crate.root_dataset, timeline.config
-    root["name"] = plain(str(config.get("title") or f"A run of {timeline.model} venation"))
+    title = str(config.get("title") or f"A run of {timeline.model} venation")
+    root["name"] = plain(title_with_changes(title, timeline.config_toml))
     after = f", after {plain(str(config['reference']))}" if config.get("reference") else ""
     root["description"] = (
         f"A simulation of plant vasculature by vasc: model {timeline.model}, growth"

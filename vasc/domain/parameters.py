@@ -8,9 +8,10 @@ from pydantic import Field, model_validator
 
 from vasc.arrays import Points
 from vasc.domain.blade import Blade
-from vasc.domain.checks import check_crossings, check_rings, check_seeds
+from vasc.domain.checks import check_crossings, check_rings, check_seeds, place
 from vasc.domain.normalization import Pair, normalized, rounded, smoothed
-from vasc.domain.readers import read_outline
+from vasc.domain.readers import read_outline, rings_in_file
+from vasc.domain.rings import parts
 from vasc.domain.seeds import SeedRowParameters, lowest_of_parts
 from vasc.domain.shapes import SHAPES, Shape, ShapeName
 from vasc.domain.teeth import TeethParameters
@@ -150,9 +151,10 @@ class BladeParameters(Parameters):
             check_crossings(rings)
             unit = normalized(rings, attachment=attachment, tip=self.tip)
         else:
-            unit = read_outline(
-                folder / str(self.file), attachment=self.attachment or "lowest", tip=self.tip
-            )
+            path = folder / str(self.file)
+            unit = read_outline(path, attachment=self.attachment or "lowest", tip=self.tip)
+            if self.seeds is None and len(parts(tuple(unit))) > 1:
+                raise OutlineError(_too_many(path))
         if not self.smooth:
             return unit
         share = self.curve_points // len(unit)
@@ -175,3 +177,16 @@ class BladeParameters(Parameters):
         key = "shape" if self.shape is not None else "file"
         value = "points" if self.points is not None else f'{key} = "{getattr(self, key)}"'
         return f"domain.{value}{message.removeprefix('outline')}"
+
+
+def _too_many(path: Path) -> str:
+    """Say which outlines a file has, in its own coordinates, where one is asked for."""
+    rings, _ = rings_in_file(path)
+    found = [rings[k] for k in parts(rings)]
+    places = [f"{place(ring.min(axis=0))} to {place(ring.max(axis=0))}" for ring in found[:3]]
+    more = ", ..." if len(found) > len(places) else ""
+    return (
+        f"outline: the file has {len(found)} outlines, from {', from '.join(places)}{more};"
+        " draw one path, or join them; a blade of several parts needs"
+        " seeds = 'lowest', or one in each"
+    )

@@ -48,7 +48,34 @@ def read_outline(
         If the file is missing, too large, not of its kind, or holds no outline
         that can be used.
     """
-    path = Path(path)
+    checked, is_y_down = rings_in_file(Path(path))
+    if is_y_down:
+        flip = np.array([1.0, -1.0])
+        checked = tuple(ring * flip for ring in checked)
+        attachment, tip = _flipped(attachment), _flipped(tip)
+    return [counter_clockwise(ring) for ring in normalized(checked, attachment=attachment, tip=tip)]
+
+
+def rings_in_file(path: Path) -> tuple[tuple[Points, ...], bool]:
+    """Read the rings of an outline as they are in the file.
+
+    Parameters
+    ----------
+    path : Path
+        A file that :func:`read_outline` knows.
+
+    Returns
+    -------
+    rings : tuple of ndarray of shape (n, 2), float64
+        In the coordinates of the file; they do not meet.
+    is_y_down : bool
+        Whether y points down there.
+
+    Raises
+    ------
+    OutlineError
+        As :func:`read_outline`.
+    """
     read = READERS.get(path.suffix.lower())
     if read is None:
         known = ", ".join(sorted(READERS))
@@ -66,11 +93,7 @@ def read_outline(
         raise OutlineError("outline: holds a number that is too large") from error
     checked = check_rings(rings)
     check_crossings(checked)
-    if is_y_down:
-        flip = np.array([1.0, -1.0])
-        checked = tuple(ring * flip for ring in checked)
-        attachment, tip = _flipped(attachment), _flipped(tip)
-    return [counter_clockwise(ring) for ring in normalized(checked, attachment=attachment, tip=tip)]
+    return checked, is_y_down
 
 
 def _flipped(point: Any) -> Any:

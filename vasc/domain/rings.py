@@ -58,3 +58,8 @@ def at_lengths(line: Points, positions: Floats) -> Points:
     """Give the points of an open line at given lengths along it, shape (n, 2)."""
     lengths = arc_lengths(line)
     return np.stack([np.interp(positions, lengths, line[:, axis]) for axis in (0, 1)], axis=1)
+
+
+def parts(rings: tuple[Points, ...]) -> list[int]:
+    """Give the rings that are margins of parts, not of holes; rings must not cross."""
+    return [k for k, others in enumerate(surrounding(rings)) if len(others) % 2 == 0]

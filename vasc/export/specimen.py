@@ -13,6 +13,7 @@ from vasc.analysis.segment_orders import segment_orders
 from vasc.analysis.tubes import strand_radii
 from vasc.analysis.units import LengthUnit
 from vasc.arrays import Codes, Floats, Ids, Points, Steps
+from vasc.config.changes import title_with_changes
 from vasc.export.words import plain
 from vasc.network import Origin, SegmentKind, VeinNetwork
 from vasc.timeline import Frame, Timeline
@@ -198,9 +199,10 @@ def _cut(timeline: Timeline, frame: Frame, widths: Floats) -> Specimen:
     rows = np.cumsum(is_used, dtype=np.int32) - 1
     ends = np.stack([directions.proximal, directions.distal], axis=1)
     rings = frame.blade.rings if timeline.dimensions == 2 else ()
+    title = title_with_changes(str(timeline.config.get("title") or ""), timeline.config_toml)
     return Specimen(
         run=plain(timeline.path.name),
-        title=plain(str(timeline.config.get("title") or "")),
+        title=plain(title),
         model=timeline.model,
         step=frame.step,
         time=frame.time,

@@ -217,7 +217,7 @@ def _write_mp4(pictures: Iterator[Pixels], output: Path, film: Film) -> None:
         import imageio_ffmpeg
     except ModuleNotFoundError as error:
         raise OutputError(
-            f"{output}: mp4 needs imageio-ffmpeg: pip install 'vasc[video]', or write a gif"
+            f'{output}: mp4 needs imageio-ffmpeg: pip install "vasc[video]", or write a gif'
         ) from error
     first = next(pictures)
     unfinished = output.with_name(f".{output.stem}.unfinished.mp4")

@@ -25,6 +25,8 @@ LEFT, RIGHT, BELOW, ABOVE = 0.5, 0.25, 0.9, 0.3
 """Room around the trees, in inches."""
 KEY = 0.42
 """Distance of the key below them, in inches."""
+NUMBER = 0.1
+"""Half the height of a number of a tree, with its disc, in inches."""
 ROWS = 60
 """Numbers of trees that fit above each other."""
 MOST_TREES = 24
@@ -206,7 +208,9 @@ def _draw_trees(axes: Axes, shown: _Shown, step: int) -> None:
     last = float(max(tree.births[drawn].max(), tree.splits[drawn].max()))
     last = min(last + 0.15 * (last - first) + 1.0, step + 1.0)
     axes.set_xlim(first - 0.08 * (last - first) - 1.0, last)
-    axes.set_ylim(-1.5, float(np.nanmax(heights)) + 1.5)
+    highest = float(np.nanmax(heights))
+    room = _room_for_numbers(axes, highest)
+    axes.set_ylim(-room, highest + room)
     for loop in shown.loops:
         _number(axes, float(tree.births[loop]), float(heights[loop]), loop)
     axes.set_yticks([])
@@ -223,6 +227,14 @@ def _draw_trees(axes: Axes, shown: _Shown, step: int) -> None:
     if n_loops > len(shown.loops):
         what = f"the {len(shown.loops)} first-order loops with most parts, of {n_loops}"
     axes.set_title(f"splits of {what}", fontsize=TEXT_SIZE + 1.0, color=INK)
+
+
+def _room_for_numbers(axes: Axes, highest: float) -> float:
+    """Give the rows that half a number takes above and below the trees, however dense they are."""
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    inches = axes.get_position().height * float(figure.get_size_inches()[1])
+    return max(1.5, highest * NUMBER / (inches - 2.0 * NUMBER))
 
 
 def _draw_key(axes: Axes, shown: _Shown) -> None:

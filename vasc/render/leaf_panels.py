@@ -209,7 +209,9 @@ def draw_controls(ax: Axes, suite: Suite, real: str, shuffled: str, words: str) 
         ax.plot(one[shuffled], -row, marker, color="white", markeredgecolor=color, markersize=6.0)
     ax.set_yticks([-row for row in range(len(found))], list(found))
     ax.set_ylim(-len(found) + 0.4, 0.6)
-    ax.set_xlim(left=0.0)
+    largest = max((controls[name][key] for name in found for key in (real, shuffled)), default=0.0)
+    # room for the whole symbol of the largest number
+    ax.set_xlim(0.0, 1.08 * largest or 1.0)
     tidy(ax, x=f"{words}; open: widths shuffled")
 
 

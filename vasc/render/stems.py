@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from textwrap import shorten
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +19,7 @@ from vasc.analysis.tubes import (
 )
 from vasc.analysis.units import LengthUnit
 from vasc.arrays import Floats, Ids, Points
+from vasc.config.changes import title_with_changes
 from vasc.errors import VascError
 from vasc.render.keys import size_in_points
 from vasc.render.saving import PICTURE_SUFFIXES, checked_output, save
@@ -32,6 +34,8 @@ if TYPE_CHECKING:
 
     from vasc.timeline import Timeline
 
+LINE = 80
+"""Characters of the line of values below a title."""
 FINEST = 1.1
 """Radius of a tube at least, in pixels."""
 N_ELLIPSE = 90
@@ -204,8 +208,10 @@ def only_step(steps: Sequence[int], *, color: str, sources: bool) -> int:
 
 
 def title_of(timeline: Timeline) -> str:
-    """Give the title of a run's config."""
-    return str(timeline.config.get("title") or "")
+    """Give the title of a config, and below it the values that were set outside of it."""
+    title = str(timeline.config.get("title") or "")
+    told = title_with_changes(title, timeline.config_toml).removeprefix(title).removeprefix(", ")
+    return f"{title}\n{shorten(told, LINE, placeholder=' ...')}" if told else title
 
 
 def _sight(positions: Points, primordia: Ids, radii: Floats, style: StemStyle) -> _Sight:

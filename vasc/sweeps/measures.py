@@ -31,7 +31,7 @@ STATISTICS = (
     *("mst_ratio", "box_dimension", "density_x_sqrt_areole", "distance_to_vein_mean"),
     *("distance_to_vein_median", "distance_to_vein_p95", "density_x_distance"),
     *("bohn_junctions", "bohn_residual_median", "bohn_residual_shuffled"),
-    *("bohn_angle_error_median", "murray_exponent_median", "loop_asymmetry"),
+    *("bohn_angle_error_median", "murray_junctions", "murray_exponent_median", "loop_asymmetry"),
     *("loop_asymmetry_shuffled", "loop_asymmetry_weighted", "loop_asymmetry_weighted_shuffled"),
     *("loop_order", "strahler_order", "horton_bifurcation_ratio"),
     *(f"strahler_streams.{order}" for order in range(1, 8)),

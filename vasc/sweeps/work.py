@@ -63,7 +63,7 @@ def perform(folder: str, number: int, should_stop: Callable[[], bool] = never) -
     run = PlannedRun(**description["runs"][number - 1])
     began = time.perf_counter()
     try:
-        experiment = _experiment_of(description, run)
+        experiment = experiment_of(description, run)
         is_stopped = _grow(experiment, place, number, should_stop)
         if (found := place.result(number)) is not None:
             return found  # another worker that was thought lost has ended it meanwhile
@@ -91,7 +91,7 @@ def result_of(number: int, measures: dict[str, Any], problems: list[str]) -> Res
     }
 
 
-def _experiment_of(description: dict[str, Any], run: PlannedRun) -> Experiment:
+def experiment_of(description: dict[str, Any], run: PlannedRun) -> Experiment:
     """Give the experiment of a run: the base with its own values."""
     folder = description["folder"]
     return load_text(

@@ -111,6 +111,11 @@ def history_at(
         If the run is one of a stem, there is no vein at that step, or the place is neither
         on the blade nor at a vein.
     """
+    if timeline.dimensions != 2:
+        raise TimelineError(
+            f"{timeline.path}: is a stem, and a place of two numbers is one of a blade;"
+            " ask for a node or a source"
+        )
     tree = run_genealogy.genealogy_of(timeline, frame.step)[0]
     network = frame.network
     if not network.n_segments:

@@ -7,8 +7,8 @@ every run; the runs; a checksum over all of it and the salt. All numbers are lit
 
 import hashlib
 import os
+import platform
 import secrets
-import socket
 import struct
 import zlib
 from collections.abc import Iterator, Sequence
@@ -157,7 +157,7 @@ class Log:
     def _write_header(self) -> None:
         """Say who writes the log from now on, and of which file it is."""
         self._salt, self._sequence, self.size = secrets.token_bytes(8), 0, HEADER_BYTES
-        host = socket.gethostname().encode()[:64]
+        host = platform.node().encode()[:64]
         head = HEADER.pack(MAGIC, os.getpid(), host, self._salt, *self._identity)
         disk.write(self.handle, head + SUM.pack(zlib.crc32(head)), 0)
 
