@@ -32,7 +32,7 @@ def test_a_long_run_keeps_its_memory_and_its_log(steps, tmp_path, report: Report
         f"{steps:,} steps",
         tried=1,
         lost=1 - is_small,
-        note=f"memory grew by {growth / 1e6:.1f} MB in the second half; log {max(logs) / 1e6:.1f} MB",
+        note=f"memory grew by {growth / 1e6:.1f} MB at last; log {max(logs) / 1e6:.1f} MB",
     )
     assert is_small, (memory, logs)
 
