@@ -200,6 +200,7 @@ def experiment():
             record=RecordParameters(perceived="nodes"),
         ),
         model=StemModel,
+        refuse_own_file=lambda output: None,
     )
 
 

@@ -28,6 +28,7 @@ from vasc.timeline.redo import (
     Pager,
     is_being_written,
     log_of,
+    refuse_foreign,
     writer_of,
 )
 
@@ -303,10 +304,10 @@ def check_output(path: Path, *, force: bool) -> None:
         raise OutputError(f"{path}: the folder {str(path.parent)!r} does not exist")
     if path.is_dir():
         raise OutputError(f"{path}: is a folder")
-    if not path.exists():
-        return
-    if not force:
+    refuse_foreign(log_of(path))
+    if path.exists() and not force:
         raise OutputError(f"{path}: exists already; use --force to replace it")
+    # also where a run's file was moved away
     if is_being_written(path, log_of(path)):
         raise OutputError(f"{path}: is being written by {writer_of(log_of(path))}")
 

@@ -6,10 +6,10 @@ reads it under a lock. Killed at any moment, the file and its log together hold 
 commit. Nothing else in vasc writes HDF5 files.
 """
 
-from vasc.timeline.redo.disk import DiskError, sync_folder
+from vasc.timeline.redo.disk import DiskError, MovedError, sync_folder
 from vasc.timeline.redo.durability import Durability
 from vasc.timeline.redo.locks import BusyError, is_being_written
-from vasc.timeline.redo.log import log_of, writer_of
+from vasc.timeline.redo.log import log_of, refuse_foreign, writer_of
 from vasc.timeline.redo.pager import Pager, settle
 from vasc.timeline.redo.signals import undisturbed
 from vasc.timeline.redo.snapshot import Snapshot, steady
@@ -18,10 +18,12 @@ __all__ = [
     "BusyError",
     "DiskError",
     "Durability",
+    "MovedError",
     "Pager",
     "Snapshot",
     "is_being_written",
     "log_of",
+    "refuse_foreign",
     "settle",
     "steady",
     "sync_folder",

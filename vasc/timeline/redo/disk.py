@@ -20,6 +20,18 @@ class DiskError(OutputError):
     exit_code = 3
 
 
+class MovedError(OutputError):
+    """A file was moved, replaced or removed while it was written."""
+
+    exit_code = 3
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(
+            f"{path}: was moved, replaced or removed while the run wrote it; what was recorded is"
+            " in the file that was moved"
+        )
+
+
 class System:
     """The calls of the operating system; tests put others in their place."""
 
@@ -84,6 +96,14 @@ def sync_folder(folder: Path) -> None:
         return
     finally:
         os.close(handle)
+
+
+def is_named(handle: int, path: Path) -> bool:
+    """Tell whether an open file still is the one of that name."""
+    try:
+        return os.path.samestat(os.fstat(handle), os.stat(path))
+    except FileNotFoundError:
+        return False
 
 
 def read(handle: int, n_bytes: int, offset: int) -> bytes:

@@ -2,6 +2,8 @@
 
 import contextlib
 import os
+import stat
+import struct
 import sys
 import time
 from collections.abc import Iterator
@@ -11,6 +13,12 @@ from vasc.timeline.redo.disk import BINARY
 
 if sys.platform != "win32":
     import fcntl
+
+
+WRITERS_PLACE = 1 << 62
+"""A byte that no file has: the writer of a file locks it, under whatever name it opened it."""
+LOG_FLAGS: int = BINARY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
+"""A log is a file of its own: no link is followed, and no pipe waited for."""
 
 
 class BusyError(Exception):
@@ -41,6 +49,32 @@ def unlock(handle: int) -> None:
     if sys.platform != "win32":
         with contextlib.suppress(OSError):
             fcntl.flock(handle, fcntl.LOCK_UN)
+
+
+def hold(handle: int) -> None:
+    """Lock an open file against other writers until it is closed; readers do not notice.
+
+    Raises
+    ------
+    BusyError
+        If another writes it.
+    """
+    command = getattr(fcntl, "F_OFD_SETLK", None) if sys.platform == "linux" else None
+    if command is None:
+        return
+    place = struct.pack("@hhqqi0q", fcntl.F_WRLCK, os.SEEK_SET, WRITERS_PLACE, 1, 0)
+    try:
+        fcntl.fcntl(handle, command, place)
+    except (BlockingIOError, PermissionError) as error:
+        raise BusyError from error
+    except OSError:
+        # a file system without such locks
+        return
+
+
+def is_plain(handle: int) -> bool:
+    """Tell whether an open file is one with content, no folder or pipe."""
+    return stat.S_ISREG(os.fstat(handle).st_mode)
 
 
 @contextlib.contextmanager
@@ -74,7 +108,7 @@ def open_locked(path: Path) -> int:
         If it cannot be opened.
     """
     while True:
-        handle = os.open(path, os.O_RDWR | os.O_CREAT | BINARY, 0o666)
+        handle = os.open(path, os.O_RDWR | os.O_CREAT | LOG_FLAGS, 0o666)
         try:
             lock(handle)
             # whoever held it before may have removed it, and another made a new one
@@ -96,7 +130,7 @@ def is_being_written(path: Path, log: Path) -> bool:
 def _is_held(path: Path, patience: float) -> bool:
     """Tell whether another has locked a file for itself, and longer than to apply a commit."""
     try:
-        handle = os.open(path, os.O_RDONLY | BINARY)
+        handle = os.open(path, os.O_RDONLY | LOG_FLAGS)
     except OSError:
         return False
     try:

@@ -9,12 +9,14 @@ import hashlib
 import os
 import platform
 import secrets
+import stat
 import struct
 import zlib
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from vasc.errors import OutputError
 from vasc.timeline.redo import disk, locks
 from vasc.timeline.redo.pages import Run
 
@@ -83,12 +85,15 @@ class Log:
     ------
     BusyError
         If another process writes it.
+    OutputError
+        If what is there is no log.
     OSError
         If it cannot be opened.
     """
 
     def __init__(self, path: Path) -> None:
         self.path = path
+        refuse_foreign(path)
         self.handle = locks.open_locked(path)
         self.size = 0
         self.is_used = os.fstat(self.handle).st_size > 0
@@ -164,7 +169,7 @@ class Log:
     def close(self, *, remove: bool) -> None:
         """Let the log go."""
         try:
-            if remove:
+            if remove and disk.is_named(self.handle, self.path):
                 disk.system.remove(self.path)
         finally:
             os.close(self.handle)
@@ -190,14 +195,42 @@ def read_header(handle: int) -> Header | None:
     return Header(pid, host.rstrip(b"\0").decode(errors="replace"), salt, Identity(*identity))
 
 
+def refuse_foreign(path: Path) -> None:
+    """Refuse to write a log where something else is.
+
+    Raises
+    ------
+    OutputError
+        If there is a file that no log begins like, a link, a folder or a pipe.
+    """
+    try:
+        kind = os.lstat(path).st_mode
+        begin = _first_bytes(path) if stat.S_ISREG(kind) else b"another kind"
+    except FileNotFoundError:
+        return
+    except OSError as error:
+        raise OutputError(f"{path}: is no place for a log: {error.strerror or error}") from error
+    # a process may have been killed as it wrote the beginning
+    if begin.rstrip(b"\0") and not MAGIC.startswith(begin):
+        raise OutputError(
+            f"{path}: is no log of vasc, and a log would be written there; move it away"
+        )
+
+
+def _first_bytes(path: Path) -> bytes:
+    """Read as many bytes as tell a log."""
+    with path.open("rb") as file:
+        return file.read(len(MAGIC))
+
+
 def writer_of(path: Path) -> str:
     """Say who writes a log, as far as it tells."""
     try:
-        handle = os.open(path, os.O_RDONLY | disk.BINARY)
+        handle = os.open(path, os.O_RDONLY | locks.LOG_FLAGS)
     except OSError:
         return "another run"
     try:
-        header = read_header(handle)
+        header = read_header(handle) if locks.is_plain(handle) else None
     finally:
         os.close(handle)
     if header is None:

@@ -46,10 +46,17 @@ class Pager(View):
         self._is_durable = durability != Durability.PROCESS
         self._most_commits = 1 if durability != Durability.BATCH else BATCH_COMMITS
         self._log = Log(log_of(path)) if is_logged else None
+        self._path = path
         try:
             self._file = os.open(path, os.O_RDWR | BINARY)
         except BaseException:
             self._let_go(remove=False)
+            raise
+        try:
+            locks.hold(self._file)
+        except BaseException:
+            os.close(self._file)
+            self._let_go(remove=self._log is not None and not self._log.is_used)
             raise
         super().__init__(Pages(self._file))
         # runs since the last commit; those of commits that are not in the file yet
@@ -209,6 +216,8 @@ class Pager(View):
         if not self._fresh:
             self._pages.forget()
             self._unseen = []
+        if self._log is not None and not disk.is_named(self._file, self._path):
+            raise disk.MovedError(self._path)
         return True
 
     def _see(self) -> None:

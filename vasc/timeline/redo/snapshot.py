@@ -41,8 +41,11 @@ class Snapshot(View):
             If the file cannot be read.
         """
         try:
-            log = os.open(log_of(path), os.O_RDONLY | BINARY)
+            log = os.open(log_of(path), os.O_RDONLY | locks.LOG_FLAGS)
         except OSError:
+            return None
+        if not locks.is_plain(log):
+            os.close(log)
             return None
         try:
             handle = os.open(path, os.O_RDONLY | BINARY)
