@@ -1,8 +1,10 @@
 """Canals and strands: told by the tables of a moment, and drawn in their states."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from reference.networks import PlainMoment, network, sources
+from reference.networks import PlainBlade, PlainMoment, network, sources
 from reference.recordings import cross_leaf
 
 from vasc.analysis.ancestry import descent
@@ -140,3 +142,17 @@ def test_a_leaf_without_canals_has_a_short_key():
 def test_a_picture_is_as_wide_as_its_key():
     assert narrowest_of(hand_made(), "state") > 4.0
     assert narrowest_of(hand_made(), "age") == narrowest_of(cross_leaf(), "age") < 2.0
+
+
+@pytest.mark.parametrize("segment", [0.3, 0.4, 0.5, 0.75])
+@pytest.mark.parametrize("squeeze", [0.3, 0.7])
+def test_the_scale_bar_ends_before_the_key_begins(segment, squeeze):
+    moment = hand_made()
+    rings = tuple(ring * (squeeze, 1.0) for ring in moment.blade.rings)
+    units = {"length": "mm", "segment": segment}
+    figure = draw_leaf(replace(moment, blade=PlainBlade(rings, 10.0)), color="state", units=units)
+    figure.canvas.draw()
+    (axes,) = figure.axes
+    bar = max(axes.lines, key=lambda line: line.get_linewidth() * (line.get_linestyle() == "-"))
+    title = next(text for text in axes.texts if text.get_text() == "state")
+    assert bar.get_window_extent().x1 < title.get_window_extent().x0

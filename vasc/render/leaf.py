@@ -20,7 +20,7 @@ from vasc.render.keys import draw_key, key_width, size_in_points
 from vasc.render.looks import Coloring, Paint, Scale, color_segments, fit_widths, width_classes
 from vasc.render.strokes import string_together
 from vasc.render.styles import STRIP, LeafStyle
-from vasc.render.surroundings import Box, draw_blade, draw_scale_bar, draw_sources
+from vasc.render.surroundings import BAR_SHARE, Box, draw_blade, draw_scale_bar, draw_sources
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,8 +33,6 @@ SIDE = 8.0
 """Longer side of a picture, in inches: 1600 pixels at 200 pixels per inch."""
 NARROWEST = 1.2
 """Shorter side at least, in inches, so that a scale bar fits under a grass leaf."""
-BAR_ROOM = 60.0
-"""Width kept free for the scale bar beside a key, in pt."""
 MAX_VECTORS = 600_000
 """Points of veins beyond which they are pixels even in an svg or pdf."""
 
@@ -228,7 +226,9 @@ def narrowest_of(moment: Moment, color: str) -> float:
     """Give the width of a picture at least, in inches, so that its key fits under the leaf."""
     if color != "state":
         return NARROWEST
-    return max(NARROWEST, (key_width(state_key(moment.canals)) + BAR_ROOM) / 72.0)
+    key = key_width(state_key(moment.canals)) / 72.0
+    # beside it the longest scale bar of a picture of this width, or of one that is high and narrow
+    return max(NARROWEST, key / (1.0 - BAR_SHARE), key + BAR_SHARE * SIDE / 2.0)
 
 
 def fitted_widths(

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 SMALLEST_DOT = 0.8
 """Diameter of a source at least, in pt."""
+BAR_SHARE = 0.25
+"""How much of a picture's width, or of half its height, a scale bar takes at most."""
 Box = tuple[float, float, float, float]
 """Left, bottom, right, top, in lengths."""
 
@@ -94,9 +96,10 @@ def bar_length(extent: float) -> float:
     >>> bar_length(430.0), bar_length(0.9), bar_length(3500.0)
     (100.0, 0.2, 500.0)
     """
-    power = 10.0 ** math.floor(math.log10(extent / 4.0))
+    longest = BAR_SHARE * extent
+    power = 10.0 ** math.floor(math.log10(longest))
     for factor in (5, 2):
-        if factor * power <= extent / 4.0:
+        if factor * power <= longest:
             return factor * power
     return power
 
