@@ -3,6 +3,7 @@
 import contextlib
 import os
 import time
+from collections.abc import Iterable
 from pathlib import Path
 
 from vasc.timeline.redo import disk, locks
@@ -61,7 +62,7 @@ class Pager(View):
         super().__init__(Pages(self._file))
         # runs since the last commit; those of commits that are not in the file yet
         self._fresh: list[Run] = []
-        self._waiting: list[Run] = []
+        self._waiting: dict[tuple[int, int], bytes] = {}
         # runs that are not in the pages: what is written is seldom read before it is applied
         self._unseen: list[Run] = []
         self._n_waiting = 0
@@ -73,8 +74,7 @@ class Pager(View):
             for frame in self._log.take_over(self._file):
                 self._pages.write_runs(frame.runs)
                 self._pages.size = self._committed_size = frame.after
-                self._waiting.extend(frame.runs)
-                self._n_waiting += 1
+                self._await(frame.runs)
             self._has_log = self._n_waiting > 0 or not self._log.is_used
 
     # what h5py calls
@@ -100,7 +100,8 @@ class Pager(View):
     def truncate(self, size: int | None = None) -> int:
         """Give the file in memory a length."""
         size = self._position if size is None else size
-        self._see()
+        if size < self._pages.size:
+            self._see()
         self._pages.truncate(size)
         return size
 
@@ -146,8 +147,7 @@ class Pager(View):
         now = time.monotonic()
         if not self._n_waiting:
             self._oldest = now
-        self._waiting.extend(runs)
-        self._n_waiting += 1
+        self._await(runs)
         if (
             self._log is None
             or self._n_waiting >= self._most_commits
@@ -184,6 +184,15 @@ class Pager(View):
             os.close(self._file)
             self._let_go(remove=self._log is not None and not self._log.is_used)
 
+    def _await(self, runs: Iterable[Run]) -> None:
+        """Keep what a commit changes for the file; HDF5 writes some places at every commit."""
+        for offset, content in runs:
+            place = (offset, len(content))
+            # behind all others, as those in between may overlap it
+            self._waiting.pop(place, None)
+            self._waiting[place] = content
+        self._n_waiting += 1
+
     def _apply_at_last(self) -> None:
         """Apply all commits, after a while also under the eyes of those who read."""
         until = time.monotonic() + PATIENCE
@@ -202,7 +211,7 @@ class Pager(View):
         try:
             if self._is_durable and self._log is not None:
                 self._log.sync()
-            for offset, content in self._waiting:
+            for (offset, _), content in self._waiting.items():
                 disk.write(self._file, content, offset)
             if os.fstat(self._file).st_size != self._committed_size:
                 disk.truncate(self._file, self._committed_size)
@@ -212,7 +221,7 @@ class Pager(View):
                 self._log.clear(durable=self._is_durable)
         finally:
             locks.unlock(self._file)
-        self._waiting, self._n_waiting = [], 0
+        self._waiting, self._n_waiting = {}, 0
         if not self._fresh:
             self._pages.forget()
             self._unseen = []
