@@ -53,6 +53,20 @@ HOSTILE = {
     ),
     "many-shapes.svg": ("<svg>" + '<circle r="1"/>' * 1100 + "</svg>", "200,000 points"),
     "rings.svg": ("<svg>" + '<rect width="1" height="1"/>' * 1100 + "</svg>", "1100 rings"),
+    "huge.svg": (
+        f'<svg><polygon transform="scale(2)" points="{"9" * 400},1 1,2 2,{"9" * 400}"/></svg>',
+        "not finite",
+    ),
+    "huge-path.svg": (f'<svg><path d="M {"9" * 400} 1 L 1 2 L 2 {"9" * 400} Z"/></svg>', "finite"),
+    "scaled.svg": (
+        f'<svg><g transform="scale({"9" * 200})"><circle r="1{"0" * 200}"/></g></svg>',
+        "not finite",
+    ),
+    "turned.svg": (
+        f'<svg><rect width="1" height="1" transform="rotate({"9" * 400})"/></svg>',
+        "finite",
+    ),
+    "named.svg": (f'<svg><circle r="1" transform="{"9" * 5000}(1)"/></svg>', "known are matrix"),
     "href.svg": ('<svg><image href="http://example.org/leaf.png"/></svg>', "holds no closed"),
     "deep.json": ("[" * NESTED + "]" * NESTED, "nested more than 64 deep"),
     "deep-objects.json": ('{"geometry":' * NESTED, "nested more than 64 deep"),

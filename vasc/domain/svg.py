@@ -40,7 +40,8 @@ def rings_of_drawing(content: bytes) -> list[Points]:
     ------
     OutlineError
         If it is not well-formed, declares a document type or entities, is nested
-        too deeply, has too many points, open subpaths or nothing closed.
+        too deeply, has too many points, open subpaths, nothing closed or
+        coordinates beyond the range of numbers.
     """
     drawing = _Drawing()
     parser = expat.ParserCreate()
@@ -49,13 +50,17 @@ def rings_of_drawing(content: bytes) -> list[Points]:
     parser.StartElementHandler = drawing.start
     parser.EndElementHandler = drawing.end
     try:
-        parser.Parse(content, True)
+        # numbers, and products of transforms, beyond the range are told of below
+        with np.errstate(over="ignore", invalid="ignore"):
+            parser.Parse(content, True)
     except expat.ExpatError as error:
         raise OutlineError(f"outline: not a well-formed SVG file: {error}") from error
     if not drawing.rings:
         raise OutlineError(
             "outline: holds no closed <path>, <polygon>, <rect>, <circle> or <ellipse>"
         )
+    if not all(np.isfinite(ring).all() for ring in drawing.rings):
+        raise OutlineError("outline: a shape has coordinates that are not finite")
     return drawing.rings
 
 
@@ -138,7 +143,7 @@ def _one_transform(kind: str, values: list[float]) -> list[list[float]]:
                 [sine, cosine, y - sine * x - cosine * y],
             ]
     raise OutlineError(
-        f"outline: transform {kind} with {len(values)} numbers cannot be read;"
+        f"outline: transform {kind[:60]} with {len(values)} numbers cannot be read;"
         " known are matrix, translate, scale and rotate"
     )
 
