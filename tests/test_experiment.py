@@ -209,6 +209,24 @@ def test_one_changed_bit_is_found_in_every_column(table, column, tmp_path, whole
     assert found[0].recorded != found[0].repeated
 
 
+@pytest.mark.parametrize("column", ["ring_xy", "seeds"])
+def test_another_blade_is_found(column, tmp_path, whole):
+    path = shutil.copy(whole, tmp_path / "a.h5")
+    with h5py.File(path, "r+") as file:
+        file[f"blade/{column}"][0, 0] += 1e-12
+    (found,) = experiments.verify(path)
+    assert found[:4] == (0, "blade", column, 0)
+
+
+def test_steps_that_are_no_longer_counted_are_found(tmp_path):
+    path = tmp_path / "a.h5"
+    experiments.run(leaf(), path, steps=12)
+    with h5py.File(path, "r+") as file:
+        file["committed"][0] = 8
+    (found,) = experiments.verify(path)
+    assert found == (8, "", "committed", -1, "8 steps", "13 steps")
+
+
 def test_a_run_of_another_config_differs_first_where_it_begins_to(tmp_path, whole):
     path = shutil.copy(whole, tmp_path / "a.h5")
     with h5py.File(path, "r+") as file:
@@ -222,6 +240,8 @@ def test_a_run_of_another_config_differs_first_where_it_begins_to(tmp_path, whol
     assert len(found) > 10
     assert [one.step for one in found] == sorted(one.step for one in found)
     with Timeline(path) as timeline:
+        with pytest.raises(TimelineError, match="config/json is not what was recorded"):
+            _ = timeline.config
         births = timeline.table("sources", "birth")
     assert found[0].step <= births[0]
 

@@ -61,6 +61,7 @@ def test_the_seeds_of_an_explicit_blade_are_the_seed_nodes(path):
     with h5py.File(path, "r+") as file:
         file["nodes/origin"][7] = Origin.SEED
     with Timeline(path) as timeline:
+        timeline.opened.trust()
         frame = timeline.frame()
         assert np.array_equal(frame.blade.seeds, frame.positions[[0, 7]])
 

@@ -25,12 +25,14 @@ def resume(
     file of that name is left as it is, but with --force.
     """
     from vasc import experiment
+    from vasc.cli.failures import complain
     from vasc.cli.interrupts import Interrupts
     from vasc.cli.progress import ProgressLine
     from vasc.cli.run import drawn
     from vasc.cli.start import load_numba
     from vasc.cli.summary import end_if_interrupted, print_summary, warn_of_veins_outside
     from vasc.timeline import Timeline
+    from vasc.timeline.left_behind import concerns
     from vasc.timeline.redo import settle
 
     if figure is not None and no_figure:
@@ -38,6 +40,8 @@ def resume(
     with Timeline(path) as timeline:
         was_complete, last_step = timeline.is_complete, timeline.last_step
         is_stem = timeline.dimensions == 3
+    for concern in concerns(path):
+        complain(f"warning: {concern}")
     if was_complete and not (quiet or as_json):
         settle(path)
         typer.echo(f"{path} is complete: its {last_step:,} steps are all there are")

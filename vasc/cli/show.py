@@ -38,6 +38,7 @@ def show(
             print_json(described(timeline))
         else:
             _print(timeline, path)
+    _warn(path)
 
 
 def described(timeline: "Timeline") -> dict[str, Any]:
@@ -177,6 +178,16 @@ def _check(path: Path, *, as_json: bool) -> None:
         typer.echo(f"{path}: keeps to its specification")
     if findings:
         raise typer.Exit(1)
+    _warn(path)
+
+
+def _warn(path: Path) -> None:
+    """Warn of a log that cannot be used, or is missing."""
+    from vasc.cli.failures import complain
+    from vasc.timeline.left_behind import concerns
+
+    for concern in concerns(path):
+        complain(f"warning: {concern}")
 
 
 def refuse_folders(path: Path) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vasc.errors import TimelineError
-from vasc.timeline import guard, layout
+from vasc.timeline import checksums, guard, layout
 from vasc.timeline.opening import Found, find
 from vasc.timeline.redo import steady
 from vasc.timeline.storage import reason
@@ -21,6 +21,9 @@ class OpenFile:
     A file that grows while it is read may show a mixture of old and new
     structure. Rows that were never written hold a value no row may hold, so a
     mixture is seen; the file is then opened again.
+
+    A column, array or text that is read as a whole is held against the checksum that
+    the last session has noted, if it came to its end.
 
     Parameters
     ----------
@@ -37,11 +40,17 @@ class OpenFile:
         self.path = path
         self.file, self.found = _open(path)
         self._datasets: dict[str, h5py.Dataset] = {}
+        # rows and checksums of what is recorded, once something is read as a whole
+        self._noted: dict[str, tuple[int, int]] | None = None
 
     def close(self) -> None:
         """Close the file; closing twice is fine."""
         self._datasets.clear()
         self.file.close()
+
+    def trust(self) -> None:
+        """Compare nothing with its checksum: for those who tell by other means what is wrong."""
+        self._noted = {}
 
     def read(self, name: str, start: int, stop: int, out: NDArray | None = None) -> NDArray:
         """Read rows of a growing column, into ``out`` if given.
@@ -49,7 +58,7 @@ class OpenFile:
         Raises
         ------
         TimelineError
-            If the rows cannot be read, or the file is closed.
+            If the rows cannot be read or are not what was recorded, or the file is closed.
         """
         self._check_open()
         rows, problem = self._attempt(name, start, stop, out)
@@ -60,11 +69,13 @@ class OpenFile:
                 rows, problem = self._attempt(name, start, stop, out)
             if rows is not None:
                 break
-        if rows is not None:
-            return rows
-        raise TimelineError(
-            f"{self.path}: {name}: rows {start} to {stop} cannot be read: {problem}"
-        )
+        if rows is None:
+            raise TimelineError(
+                f"{self.path}: {name}: rows {start} to {stop} cannot be read: {problem}"
+            )
+        if start == 0 and stop == self._noted_of(name)[0] > 0:
+            self._compare(name, checksums.of_rows(rows))
+        return rows
 
     def read_array(self, name: str) -> NDArray:
         """Read an array that never grows.
@@ -72,13 +83,15 @@ class OpenFile:
         Raises
         ------
         TimelineError
-            If it is missing or of another type than the layout says.
+            If it is missing, of another type than the layout says, or not what was recorded.
         """
         self._check_open()
         column = layout.STATIC[name]
         dataset = guard.open_dataset(self.path, self.file, name)
         guard.check_column(self.path, name, dataset, column)
-        return dataset[:]
+        values = dataset[:]
+        self._compare(name, checksums.of_value(values))
+        return values
 
     def read_text(self, name: str) -> str:
         """Read a text.
@@ -86,13 +99,15 @@ class OpenFile:
         Raises
         ------
         TimelineError
-            If it is missing or no text.
+            If it is missing, no text, or not what was recorded.
         """
         self._check_open()
         dataset = guard.open_dataset(self.path, self.file, name)
         if dataset.dtype.kind != "S" or dataset.shape != ():
             raise TimelineError(f"{self.path}: {name} is not a text")
-        return dataset[()].decode(errors="replace")
+        raw = dataset[()]
+        self._compare(name, checksums.of_value(raw))
+        return raw.decode(errors="replace")
 
     def item(self, name: str) -> Any:
         """Open a group or dataset of the layout, for its attributes.
@@ -104,6 +119,18 @@ class OpenFile:
         """
         self._check_open()
         return guard.open_item(self.path, self.file, name)
+
+    def _noted_of(self, name: str) -> tuple[int, int]:
+        """Give rows and checksum of a part of the file as noted; -1 rows if they were not."""
+        if self._noted is None:
+            self._noted = checksums.noted(self.path, self.file, self.found)
+        return self._noted.get(name, (-1, 0))
+
+    def _compare(self, name: str, total: int) -> None:
+        """Refuse what is not as it was recorded."""
+        n_rows, expected = self._noted_of(name)
+        if n_rows >= 0 and total != expected:
+            raise checksums.not_as_recorded(self.path, name)
 
     def _attempt(
         self, name: str, start: int, stop: int, out: NDArray | None

@@ -1,6 +1,7 @@
 """Checksums of what a session has recorded: they tell damage from what merely looks odd."""
 
 import math
+import re
 import zlib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
@@ -23,6 +24,8 @@ SLICE_BYTES = 4 << 20
 ATTRIBUTES = "attributes"
 """Under which name the attributes of the file and of its units are summed."""
 
+HEXADECIMAL = re.compile(r"[0-9a-f]{8}")
+
 Read = Callable[[str, int, int], NDArray]
 """Reads rows of a growing column, from one row to another."""
 
@@ -30,6 +33,11 @@ Read = Callable[[str, int, int], NDArray]
 def of_rows(rows: NDArray, before: int = 0) -> int:
     """Give the CRC-32 of rows that follow on others."""
     return zlib.crc32(np.ascontiguousarray(rows).view(np.uint8).reshape(-1).data, before)
+
+
+def of_value(value: Any, before: int = 0) -> int:
+    """Give the CRC-32 of an array or of a single value."""
+    return of_rows(np.atleast_1d(np.asarray(value)), before)
 
 
 def of_columns(found: Found, starts: Mapping[str, NDArray[np.int64]], read: Read) -> dict[str, int]:
@@ -55,19 +63,36 @@ def of_fixed(path: Path, file: h5py.File, found: Found) -> dict[str, int]:
     """
     sums = {}
     for name in (*TEXTS, *layout.static_columns(found.dimensions, found.has_tissue)):
-        values = guard.open_dataset(path, file, name)[()]
-        sums[name] = of_rows(np.atleast_1d(np.asarray(values)))
+        sums[name] = of_value(guard.open_dataset(path, file, name)[()])
     total = 0
     for item in (file, guard.open_item(path, file, layout.UNITS)):
         for name in sorted(item.attrs):
             total = zlib.crc32(name.encode(), total)
-            total = of_rows(np.atleast_1d(np.asarray(item.attrs[name])), total)
+            total = of_value(item.attrs[name], total)
     return sums | {ATTRIBUTES: total}
 
 
 def written(sums: Mapping[str, int]) -> dict[str, str]:
     """Give sums as a provenance record holds them."""
     return {name: f"{total:08x}" for name, total in sums.items()}
+
+
+def noted(path: Path, file: h5py.File, found: Found) -> dict[str, tuple[int, int]]:
+    """Give the rows and the CRC-32 of what the last session has noted; 0 rows of what has none.
+
+    Empty where no session that came to its end has noted them, or steps were recorded since.
+    Explicit positions and fields, which are read step by step, are left out.
+    """
+    known = [one for one in sessions(read_records(path, file)) if "checksums" in one]
+    if not known or known[-1].get("last_step") != found.n_frames - 1:
+        return {}
+    n_rows = found.committed_rows({})
+    sums = known[-1]["checksums"]
+    return {
+        name: (n_rows.get(name, 0), int(total, 16))
+        for name, total in (sums.items() if isinstance(sums, Mapping) else ())
+        if isinstance(total, str) and HEXADECIMAL.fullmatch(total)
+    }
 
 
 def damaged(
@@ -144,6 +169,11 @@ def to_continue(
             return of_columns(found, starts, read)
     except guard.TRANSIENT as error:
         raise TimelineError(f"{path}: is damaged: {reason(error)}") from error
-    raise TimelineError(
-        f"{path}: is damaged: {names[0]} is not what was recorded; `vasc show --check` tells more"
+    raise not_as_recorded(path, names[0])
+
+
+def not_as_recorded(path: Path, name: str) -> TimelineError:
+    """Give the error for a part of a file that differs from its checksum."""
+    return TimelineError(
+        f"{path}: is damaged: {name} is not what was recorded; `vasc show --check` tells more"
     )

@@ -18,6 +18,7 @@ from vasc.timeline.layout import (
     count_column,
     motion_of,
 )
+from vasc.timeline.outlines import arrays_of_blade
 from vasc.timeline.reader import Timeline
 from vasc.timeline.tissues import arrays_of
 
@@ -62,6 +63,26 @@ def compare_fields(timeline: Timeline, state: State, found: dict[str, Difference
         steps = np.full(max(len(recorded), len(repeated)), state.step)
         for difference in _difference(FIELDS, name, recorded, repeated, steps):
             found[name] = difference
+
+
+def blade_differences(timeline: Timeline, state: State) -> Iterator[Difference]:
+    """Compare the blade at step 0, and its seeds."""
+    if timeline.dimensions != 2 or state.blade is None:
+        return
+    for path, rows in arrays_of_blade(state.blade).items():
+        table, _, column = path.partition("/")
+        recorded = timeline.opened.read_array(path)
+        steps = np.zeros(max(len(rows), len(recorded)), dtype=np.int64)
+        yield from _difference(table, column, recorded, rows, steps)
+
+
+def length_differences(timeline: Timeline) -> Iterator[Difference]:
+    """Compare how many steps are counted with how many the sessions say they recorded."""
+    said = [session.get("last_step") for session in timeline.provenance]
+    n_said = 1 + max((last for last in said if isinstance(last, int)), default=-1)
+    if n_said > timeline.n_frames:
+        counted = f"{timeline.n_frames} steps"
+        yield Difference(timeline.n_frames, "", "committed", -1, counted, f"{n_said} steps")
 
 
 def form_differences(timeline: Timeline, state: State) -> Iterator[Difference]:

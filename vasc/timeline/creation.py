@@ -13,7 +13,8 @@ from vasc.domain import Blade, Tissue
 from vasc.errors import TimelineError
 from vasc.timeline import layout
 from vasc.timeline.layout import Motion
-from vasc.timeline.redo import Durability, sync_folder
+from vasc.timeline.outlines import arrays_of_blade
+from vasc.timeline.redo import Durability, settle, sync_folder
 from vasc.timeline.storage import Store, beside, check_output, publish
 from vasc.timeline.tissues import arrays_of, check_room
 
@@ -103,6 +104,9 @@ def create_file(
                 store.close()
         finally:
             store.give_up()
+        if path.exists():
+            # its log goes with it: the new file has one of its own
+            settle(path)
         publish(unready, path, force=force)
         if durability != Durability.PROCESS:
             sync_folder(path.absolute().parent)
@@ -141,11 +145,7 @@ def _domain(
             f"{path}: a file of 2 dimensions takes a blade and no ring at the base,"
             " one of 3 dimensions a ring and no blade"
         )
-    return {
-        layout.RING_XY: np.concatenate(blade.rings),
-        layout.RING_STARTS: np.cumsum([0, *(len(ring) for ring in blade.rings)]),
-        layout.SEEDS: blade.seeds,
-    }
+    return arrays_of_blade(blade)
 
 
 def _add_arrays(store: Store, arrays: Mapping[str, NDArray]) -> None:

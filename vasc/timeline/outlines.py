@@ -1,11 +1,21 @@
 """The outline with which a leaf began, as a blade."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vasc.domain import Blade
 from vasc.errors import OutlineError, TimelineError
 from vasc.timeline import layout
 from vasc.timeline.access import OpenFile
+
+
+def arrays_of_blade(blade: Blade) -> dict[str, NDArray]:
+    """Give a blade as the arrays by which a file holds it, by path."""
+    return {
+        layout.RING_XY: np.concatenate(blade.rings),
+        layout.RING_STARTS: np.cumsum([0, *(len(ring) for ring in blade.rings)]),
+        layout.SEEDS: blade.seeds,
+    }
 
 
 def read_initial_blade(opened: OpenFile) -> Blade:

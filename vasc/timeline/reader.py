@@ -24,8 +24,8 @@ from vasc.timeline.layout import MOTION, TABLES, Motion, count_column
 from vasc.timeline.lineage import Lineage
 from vasc.timeline.occurrences import Events
 from vasc.timeline.outlines import read_initial_blade
-from vasc.timeline.parents import WITH_PARENTS, check_parents
 from vasc.timeline.provenance import sessions
+from vasc.timeline.references import check_rows
 from vasc.timeline.tissues import RecordedPast, read_fields, read_tissue
 
 
@@ -229,8 +229,8 @@ class Timeline:
         Raises
         ------
         TimelineError
-            If there is no such table, column or row, the rows cannot be read, or they are
-            parents that are no earlier rows.
+            If there is no such table, column or row, or the rows cannot be read, are ids of
+            rows that there are not, or are not finite.
         """
         n_rows = self.n_rows(name)
         if column not in TABLES[name]:
@@ -240,8 +240,7 @@ class Timeline:
         if not 0 <= start <= stop <= n_rows:
             raise TimelineError(f"rows {start} to {stop} of {name}: it has {n_rows}")
         rows = self.opened.read(f"{name}/{column}", start, stop)
-        if column == "parent" and name in WITH_PARENTS:
-            check_parents(self.path, name, rows, start)
+        check_rows(self.path, (name, column), rows, self.n_rows, start)
         return rows
 
     def frame(self, step: int = -1) -> Frame:
@@ -348,11 +347,12 @@ class Timeline:
         for name, columns in table_columns(self.dimensions).items():
             count = f"frames/{count_column(name)}"
             n_rows = int(self.opened.read(count, step, step + 1)[0])
+            if not 0 <= n_rows <= self.n_rows(name):
+                raise TimelineError(f"{self.path}: {count} of step {step} is {n_rows}")
             table = Table(columns, capacity=max(256, n_rows + n_rows // 8))
             for column, array in table.arrays.items():
                 self.opened.read(f"{name}/{column}", 0, n_rows, out=array[:n_rows])
-            if name in WITH_PARENTS:
-                check_parents(self.path, name, table.arrays["parent"][:n_rows])
+                check_rows(self.path, (name, column), array[:n_rows], self.n_rows)
             table.n_rows = n_rows
             filled[name] = table
         past = RecordedPast(self.opened) if self.opened.found.has_tissue else None

@@ -19,6 +19,7 @@ from vasc.states import FIRST, TRANSITIONS, Kind, SourceState
 from vasc.timeline import guard, layout
 from vasc.timeline.layout import ROLES, TABLES, count_column
 from vasc.timeline.reader import Timeline
+from vasc.timeline.references import REFERENCES
 
 Findings = Iterator[str]
 
@@ -149,15 +150,8 @@ def steps(record: Record) -> Findings:
 
 def ids(record: Record) -> Findings:
     """Check that every id points to a row that existed when it was recorded."""
-    yield from _references(record, "nodes", "parent", "nodes", null=True)
-    yield from _references(record, "nodes", "source", "sources", null=True)
-    yield from _references(record, "segments", "nodes", "nodes")
-    yield from _references(record, "perceived", "source", "sources")
-    yield from _references(record, "perceived", "node", "nodes")
-    yield from _references(record, "areoles", "parent", "areoles", null=True)
-    yield from _references(record, "areoles", "segment", "segments")
-    yield from _references(record, "boundaries", "areole", "areoles")
-    yield from _references(record, "boundaries", "node", "nodes")
+    for place, (owner, may_be_none) in REFERENCES.items():
+        yield from _references(record, *place, owner, null=may_be_none)
     kinds = ((Kind.NODE, "nodes"), (Kind.SOURCE, "sources"), (Kind.CANAL, "perceived"))
     for kind, table in kinds:
         where = record.column("states", "what") == kind

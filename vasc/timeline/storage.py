@@ -29,6 +29,7 @@ from vasc.timeline.redo import (
     is_being_written,
     log_of,
     refuse_foreign,
+    refuse_strange,
     writer_of,
 )
 
@@ -310,6 +311,7 @@ def check_output(path: Path, *, force: bool) -> None:
     # also where a run's file was moved away
     if is_being_written(path, log_of(path)):
         raise OutputError(f"{path}: is being written by {writer_of(log_of(path))}")
+    refuse_strange(path)
 
 
 def beside(path: Path) -> Path:

@@ -13,6 +13,7 @@ from vasc.timeline.checksums import damaged
 from vasc.timeline.opening import find_places
 from vasc.timeline.provenance import schema
 from vasc.timeline.reader import Timeline
+from vasc.timeline.redo import problem_of
 from vasc.timeline.rules import Findings, Record, bad_rows
 from vasc.timeline.storage import reason
 
@@ -33,9 +34,11 @@ def validate(path: str | Path) -> list[str]:
     list of str
         What breaks a rule of docs/timeline-format.md; empty if the file is fine.
     """
-    findings: list[str] = []
+    findings = [f"[log] {problem}" for problem in (problem_of(Path(path)),) if problem]
     try:
         with Timeline(path) as timeline:
+            # what differs from its checksum may also break a rule, which tells more
+            timeline.opened.trust()
             record = Record(timeline)
             for stage in STAGES:
                 found = [finding for rule in stage for finding in rule(record)]

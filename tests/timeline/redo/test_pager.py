@@ -6,8 +6,9 @@ import shutil
 
 import pytest
 
+from vasc.errors import OutputError
 from vasc.timeline.redo import BusyError, Durability, Pager, Snapshot, is_being_written, pager
-from vasc.timeline.redo.log import HEADER_BYTES, log_of
+from vasc.timeline.redo.contents import HEADER_BYTES, log_of
 
 OWN = b"this file and no other"
 
@@ -122,8 +123,12 @@ def test_the_log_of_another_file_is_not_replayed(path):
     path.write_bytes(b"T" + path.read_bytes()[1:])
     before = path.read_bytes()
     assert seen(path) == before
-    opened(path).release()
-    assert path.read_bytes() == before
+    log = log_of(path).read_bytes()
+    with pytest.raises(
+        OutputError, match=r"-wal: is the log of another file, and holds \d commits"
+    ):
+        opened(path)
+    assert (path.read_bytes(), log_of(path).read_bytes()) == (before, log)
 
 
 @pytest.mark.parametrize("size", [4000, 8000])

@@ -6,10 +6,11 @@ reads it under a lock. Killed at any moment, the file and its log together hold 
 commit. Nothing else in vasc writes HDF5 files.
 """
 
+from vasc.timeline.redo.contents import log_of
 from vasc.timeline.redo.disk import DiskError, MovedError, sync_folder
 from vasc.timeline.redo.durability import Durability
 from vasc.timeline.redo.locks import BusyError, is_being_written
-from vasc.timeline.redo.log import log_of, refuse_foreign, writer_of
+from vasc.timeline.redo.log import problem_of, refuse_foreign, refuse_strange, writer_of
 from vasc.timeline.redo.pager import Pager, settle
 from vasc.timeline.redo.signals import undisturbed
 from vasc.timeline.redo.snapshot import Snapshot, steady
@@ -23,7 +24,9 @@ __all__ = [
     "Snapshot",
     "is_being_written",
     "log_of",
+    "problem_of",
     "refuse_foreign",
+    "refuse_strange",
     "settle",
     "steady",
     "sync_folder",

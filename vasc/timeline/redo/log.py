@@ -1,69 +1,35 @@
-"""The log beside a file: a header that says whose log it is, and a frame a commit.
+"""The log beside a file, as its one writer holds it; what stands in it is in ``contents``."""
 
-Header: magic, pid, host, salt, identity of the file, checksum. Frame: magic, number of runs,
-sequence number, sizes of the file before and after, bytes of all runs; offset and length of
-every run; the runs; a checksum over all of it and the salt. All numbers are little-endian.
-"""
-
-import hashlib
+import contextlib
 import os
 import platform
 import secrets
 import stat
-import struct
 import zlib
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import NamedTuple
 
 from vasc.errors import OutputError
 from vasc.timeline.redo import disk, locks
+from vasc.timeline.redo.contents import (
+    FRAME,
+    FRAME_MAGIC,
+    HEADER,
+    HEADER_BYTES,
+    MAGIC,
+    RUN,
+    SUM,
+    Contents,
+    Frame,
+    Identity,
+    contents_of,
+    log_of,
+    read_header,
+)
 from vasc.timeline.redo.pages import Run
 
-SUFFIX = "-wal"
-"""What the name of a log has more than that of its file."""
-MAGIC = b"VASCWAL1"
-FRAME_MAGIC = b"FRAM"
-HEADER = struct.Struct("<8sQ64s8sQQ32s")
-FRAME = struct.Struct("<4sIQQQQ")
-RUN = struct.Struct("<QQ")
-SUM = struct.Struct("<I")
-HEADER_BYTES = HEADER.size + SUM.size
 KEPT_BYTES = 8 << 20
 """Bytes of a log that are kept although the file holds them."""
-
-
-class Identity(NamedTuple):
-    """Bytes of a file that are its own and never change: where they are, and their digest."""
-
-    offset: int
-    n_bytes: int
-    digest: bytes
-
-    @classmethod
-    def of(cls, handle: int, offset: int, n_bytes: int) -> "Identity":
-        """Take note of the bytes of an open file."""
-        content = disk.read(handle, n_bytes, offset)
-        return cls(offset, n_bytes, hashlib.sha256(content).digest())
-
-    def is_of(self, handle: int) -> bool:
-        """Tell whether an open file has these bytes."""
-        return self == Identity.of(handle, self.offset, min(self.n_bytes, 1 << 20))
-
-
-class Frame(NamedTuple):
-    """What one commit changes: the sizes of the file around it, and runs of bytes."""
-
-    sequence: int
-    before: int
-    after: int
-    runs: tuple[Run, ...]
-
-
-def log_of(path: Path) -> Path:
-    """Give the log of a file; a link to a file has that of the file."""
-    place = path.resolve()
-    return place.with_name(place.name + SUFFIX)
 
 
 class Log:
@@ -101,13 +67,21 @@ class Log:
         self._sequence = 0
         self._identity = Identity(0, 0, bytes(32))
 
-    def take_over(self, file: int) -> list[Frame]:
-        """Read the frames that a killed writer left for a file, and go on after them."""
-        header, frames, self.size = _read(self.handle, file)
-        if header is not None and frames:
-            self._salt, self._identity = header.salt, header.identity
-            self._sequence = frames[-1].sequence
-        return frames
+    def take_over(self, file: int) -> Sequence[Frame]:
+        """Read the frames that a killed writer left for a file, and go on after them.
+
+        Raises
+        ------
+        OutputError
+            If there are frames that do not belong to the file.
+        """
+        found = contents_of(self.handle, file)
+        if found.is_strange:
+            raise OutputError(_strange(self.path, found))
+        if found.header is not None and found.frames:
+            self._salt, self._identity = found.header.salt, found.header.identity
+            self._sequence, self.size = found.frames[-1].sequence, found.end
+        return found.frames
 
     def begin(self, identity: Identity, *, durable: bool) -> None:
         """Start anew, as the log of a file."""
@@ -175,26 +149,6 @@ class Log:
             os.close(self.handle)
 
 
-class Header(NamedTuple):
-    """Who writes a log, and of which file it is."""
-
-    pid: int
-    host: str
-    salt: bytes
-    identity: Identity
-
-
-def read_header(handle: int) -> Header | None:
-    """Read who writes a log; None if its header is not whole."""
-    raw = disk.read(handle, HEADER_BYTES, 0)
-    if len(raw) < HEADER_BYTES or raw[HEADER.size :] != SUM.pack(zlib.crc32(raw[: HEADER.size])):
-        return None
-    magic, pid, host, salt, *identity = HEADER.unpack_from(raw)
-    if magic != MAGIC:
-        return None
-    return Header(pid, host.rstrip(b"\0").decode(errors="replace"), salt, Identity(*identity))
-
-
 def refuse_foreign(path: Path) -> None:
     """Refuse to write a log where something else is.
 
@@ -238,44 +192,46 @@ def writer_of(path: Path) -> str:
     return f"another run (process {header.pid} on {header.host})"
 
 
-def frames_of(log: int, file: int) -> list[Frame]:
-    """Read the whole frames of an open log, if it is that of an open file; else none."""
-    return _read(log, file)[1]
+def problem_of(path: Path) -> str:
+    """Say what is wrong with the log of a file; nothing if nothing is, or there is none."""
+    with _opened(path) as found:
+        return f"{log_of(path)}: {found.problem}" if found.problem else ""
 
 
-def _read(log: int, file: int) -> tuple[Header | None, list[Frame], int]:
-    """Read the header of a log, its frames for a file, and where the last of them ends."""
-    header = read_header(log)
-    if header is None or not header.identity.is_of(file):
-        return None, [], 0
-    raw = disk.read(log, os.fstat(log).st_size - HEADER_BYTES, HEADER_BYTES)
-    frames, end = [], HEADER_BYTES
-    for frame, stop in _frames(raw, zlib.crc32(header.salt)):
-        frames.append(frame)
-        end = HEADER_BYTES + stop
-    sizes = [size for frame in frames for size in (frame.before, frame.after)]
-    # an older or newer copy of the same file: these frames do not follow on what it holds
-    if frames and not min(sizes) <= os.fstat(file).st_size <= max(sizes):
-        return None, [], 0
-    return header, frames, end
+def refuse_strange(path: Path) -> None:
+    """Refuse to begin the log of a file where another one holds commits.
+
+    Raises
+    ------
+    OutputError
+        If one does.
+    """
+    with _opened(path) as found:
+        if found.is_strange:
+            raise OutputError(_strange(log_of(path), found))
 
 
-def _frames(raw: bytes, salted: int) -> Iterator[tuple[Frame, int]]:
-    """Give the frames that are whole and follow one another, and where each ends."""
-    start, view, last = 0, memoryview(raw), None
-    while start + FRAME.size <= len(raw):
-        magic, n_runs, sequence, before, after, n_bytes = FRAME.unpack_from(raw, start)
-        first = start + FRAME.size + n_runs * RUN.size
-        stop = first + n_bytes
-        is_next = last is None or sequence == last + 1
-        if magic != FRAME_MAGIC or not is_next or stop + SUM.size > len(raw):
-            return
-        if SUM.unpack_from(raw, stop)[0] != zlib.crc32(view[start:stop], salted):
-            return
-        runs = []
-        for number in range(n_runs):
-            offset, length = RUN.unpack_from(raw, start + FRAME.size + number * RUN.size)
-            runs.append((offset, raw[first : first + length]))
-            first += length
-        last, start = sequence, stop + SUM.size
-        yield Frame(sequence, before, after, tuple(runs)), start
+def _strange(log: Path, found: Contents) -> str:
+    """Say that a log does not belong to its file, and what to do."""
+    return f"{log}: {found.problem}; move it away, or give back the file that it belongs to"
+
+
+@contextlib.contextmanager
+def _opened(path: Path) -> Iterator[Contents]:
+    """Read the log of a file, where there is one; neither need exist."""
+    with contextlib.ExitStack() as handles:
+        log = _handle(log_of(path), handles)
+        if log is None or not locks.is_plain(log):
+            yield Contents()
+        else:
+            yield contents_of(log, _handle(path, handles))
+
+
+def _handle(path: Path, handles: contextlib.ExitStack) -> int | None:
+    """Open a file to read it; None if that cannot be done."""
+    try:
+        handle = os.open(path, os.O_RDONLY | locks.LOG_FLAGS)
+    except OSError:
+        return None
+    handles.callback(os.close, handle)
+    return handle

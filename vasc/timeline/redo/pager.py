@@ -7,9 +7,10 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from vasc.timeline.redo import disk, locks
+from vasc.timeline.redo.contents import Identity, log_of
 from vasc.timeline.redo.disk import BINARY, DiskError
 from vasc.timeline.redo.durability import BATCH_COMMITS, BATCH_SECONDS, Durability
-from vasc.timeline.redo.log import Identity, Log, log_of
+from vasc.timeline.redo.log import Log
 from vasc.timeline.redo.pages import Pages, Run
 from vasc.timeline.redo.view import View
 
@@ -37,6 +38,8 @@ class Pager(View):
     ------
     BusyError
         If another process writes the file.
+    OutputError
+        If its log is that of another file.
     OSError
         If it cannot be opened.
     """
@@ -55,6 +58,7 @@ class Pager(View):
             raise
         try:
             locks.hold(self._file)
+            left = [] if self._log is None else self._log.take_over(self._file)
         except BaseException:
             os.close(self._file)
             self._let_go(remove=self._log is not None and not self._log.is_used)
@@ -71,7 +75,7 @@ class Pager(View):
         self._has_log = False
         self._committed_size = self._pages.size
         if self._log is not None:
-            for frame in self._log.take_over(self._file):
+            for frame in left:
                 self._pages.write_runs(frame.runs)
                 self._pages.size = self._committed_size = frame.after
                 self._await(frame.runs)

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Self
 
 from vasc.timeline.redo import locks
+from vasc.timeline.redo.contents import contents_of, log_of
 from vasc.timeline.redo.disk import BINARY
-from vasc.timeline.redo.log import frames_of, log_of
 from vasc.timeline.redo.pages import Pages
 from vasc.timeline.redo.view import View
 
@@ -55,7 +55,7 @@ class Snapshot(View):
         try:
             with locks.sharing(handle, PATIENCE):
                 pages = Pages(handle)
-                for frame in frames_of(log, handle):
+                for frame in contents_of(log, handle).frames:
                     pages.write_runs(frame.runs)
                     pages.size = frame.after
         except BaseException:
