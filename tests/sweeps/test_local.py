@@ -76,6 +76,22 @@ def test_only_what_is_missing_is_made(here, short, capsys):
     assert sessions(runs / "0004.h5") == ["complete"]
 
 
+def test_a_timeline_that_was_overwritten_is_made_again_and_one_removed_is_not(here, short, capsys):
+    shutil.copytree(short, "out")
+    runs = here / "out" / "runs"
+    whole = (runs / "0003.h5").read_bytes()
+    (runs / "0002.h5").unlink()
+    (runs / "0003.h5").write_bytes(b"notes on this run")
+    (runs / "0005.h5").write_bytes(b"x" * (runs / "0005.h5").stat().st_size)
+    (runs / "0006.h5").write_bytes(whole)
+    assert main(["sweep", "small.toml", "-o", "out"]) == 0
+    assert "5 of them before" in capsys.readouterr().out
+    assert table(here / "out") == table(short)
+    for number in (3, 5, 6):
+        assert validate(runs / f"{number:04d}.h5") == []
+    assert not (runs / "0002.h5").exists()
+
+
 def test_a_worker_that_is_killed_loses_its_own_run_alone(tmp_path, long):
     sweep = start(write(tmp_path, LONG).parent, "sweep", "small.toml", "-o", "out", "--workers=2")
     wait_until(lambda: is_under_way(tmp_path / "out", 1))

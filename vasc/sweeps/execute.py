@@ -100,12 +100,17 @@ def begun(sweep: Sweep, folder: SweepFolder, *, retry: bool = False) -> tuple[Pr
     progress : Progress
         Results that are there, counted.
     missing : list of int
-        Numbers of the runs without one, ascending.
+        Numbers of the runs without one, or whose timeline is no longer what was measured,
+        ascending.
     """
     progress, missing = Progress(len(sweep.runs)), []
     for run in sweep.runs:
         result = folder.result(run.number)
-        if result is None or (retry and result["status"] == FAILED):
+        if (
+            result is None
+            or (retry and result["status"] == FAILED)
+            or folder.is_replaced(run.number, result)
+        ):
             missing.append(run.number)
         else:
             progress.count(run.number, result)
@@ -156,9 +161,8 @@ def run_sweep(
     folder.begin(sweep.description())
     with folder.locked():
         progress, missing = begun(sweep, folder, retry=retry)
-        if retry:
-            for number in missing:
-                folder.result_file(number).unlink(missing_ok=True)
+        for number in missing:
+            folder.result_file(number).unlink(missing_ok=True)
         try:
             if missing:
                 with workforce() as workers:

@@ -14,6 +14,7 @@ from typing import Any
 from vasc.config.values import dotted, written
 from vasc.errors import OutputError
 from vasc.sweeps.plan import PlannedRun
+from vasc.timeline.guard import SIGNATURE
 from vasc.whole_files import write_whole
 
 if sys.platform != "win32":
@@ -111,6 +112,20 @@ class SweepFolder:
         except (OSError, ValueError):
             return None
         return found if isinstance(found, dict) and found.get("number") == number else None
+
+    def is_replaced(self, number: int, result: dict[str, Any]) -> bool:
+        """Tell whether what stands in the place of a timeline is not what was measured.
+
+        One that was removed, to save room, is no reason to make it again.
+        """
+        try:
+            with self.timeline(number).open("rb") as file:
+                begin, size = file.read(len(SIGNATURE)), os.fstat(file.fileno()).st_size
+        except FileNotFoundError:
+            return False
+        except OSError:
+            return True
+        return begin != SIGNATURE or size != result.get("bytes", size)
 
     def write_result(self, result: dict[str, Any]) -> None:
         """Write the result of a run."""
