@@ -1,5 +1,6 @@
 """The errors vasc raises on purpose: each names a thing, its value and what is allowed."""
 
+import errno
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -35,6 +36,12 @@ class OutputError(VascError):
     """A file cannot be written: it exists, or its folder does not."""
 
 
+class DiskError(OutputError):
+    """The disk does not take what is written; what was written before is kept."""
+
+    exit_code = 3
+
+
 class ShapeError(VascError):
     """An array has the wrong shape or dtype for the door it came through."""
 
@@ -45,16 +52,23 @@ class RunError(VascError):
     exit_code = 3
 
 
+DISK_FAULTS = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO})
+"""Errors of the system that are the disk's, whatever was asked for."""
+
+
 @contextmanager
 def writing(path: Path) -> Iterator[None]:
     """Tell an error of the system by the name of what is written, not by that of a part of it.
 
     Raises
     ------
+    DiskError
+        If the disk is full or fails.
     OutputError
-        If the system refuses.
+        If the system refuses for another reason.
     """
     try:
         yield
     except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
+        kind = DiskError if error.errno in DISK_FAULTS else OutputError
+        raise kind(f"{path}: cannot be written: {error.strerror or error}") from error

@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 
 from vasc.cli import main
+from vasc.cli.failures import InterruptedRunError, end_of, interruptible
 from vasc.cli.interrupts import Interrupts
 from vasc.cli.progress import ProgressLine
 from vasc.timeline import Timeline, validate
@@ -179,6 +180,20 @@ def test_the_second_signal_stops_at_once_and_handlers_are_put_back(capfd):
             signal.raise_signal(signal.SIGINT)
     assert signal.getsignal(signal.SIGINT) == before
     assert "stopping after this step" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_second_signal_has_the_exit_code_of_a_signal(number, capfd):
+    @interruptible
+    def verb():
+        with Interrupts():
+            signal.raise_signal(signal.SIGINT)
+            signal.raise_signal(number)
+
+    with pytest.raises(InterruptedRunError) as caught:
+        verb()
+    assert end_of(caught.value, with_traceback=False) == 128 + number
+    assert capfd.readouterr().err.endswith("interrupted\n")
 
 
 def test_a_thread_that_may_not_ask_for_signals_runs_without():

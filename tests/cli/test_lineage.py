@@ -134,6 +134,10 @@ def test_lists_say_what_they_hold(leaf, capsys):
         (["--at", "1,2,3"], "must be two numbers X,Y"),
         (["--at", "1,nan"], "must be two numbers X,Y"),
         (["--at", "1000,0"], "off the blade"),
+        (
+            ["--at", "1e300,-1e300"],
+            "the place 1e+300,-1e+300 is off the blade, far from the nearest",
+        ),
         (["--fates", "--step", "3"], "--step is for --at"),
         (["--node", "1", "--csv"], "--csv is for tables"),
         (["--fates", "--csv", "--json"], "excludes --json"),

@@ -14,7 +14,7 @@ from vasc.cli import main
 from vasc.config import load
 from vasc.crates import export_crate, is_crate
 from vasc.crates.citation import WORKS, citation_file
-from vasc.errors import OutputError, TimelineError
+from vasc.errors import OutputError, TimelineError, VascError
 from vasc.experiment import run, verify
 from vasc.export.tables import DESCRIPTION, TABLES
 from vasc.timeline import Timeline
@@ -190,12 +190,11 @@ WORDS = {"session": 1, "software": {"a b/../c\n": {"x": 1}, "vasc": None}, "ende
 
 def test_odd_words_of_a_timeline_are_words(runs, tmp_path, monkeypatch):
     monkeypatch.setattr(Timeline, "provenance", [ODD, WORDS])
-    graph = graph_of(export_crate(runs.open, tmp_path / "a.crate", license="\x1b[2J a licence"))
+    graph = graph_of(export_crate(runs.open, tmp_path / "a.crate"))
     text = json.dumps(graph)
     assert "\\u001b" not in text
     assert "\\u0000" not in text
     assert {"#session-0", "#session-1", "#vasc-None"} <= set(graph)
-    assert graph["./"]["license"] == "[2J a licence"
 
 
 @pytest.mark.parametrize("files", [["a.csv"], {"a.csv": 3}, {"a.csv": "no base64!"}])
@@ -259,3 +258,27 @@ def test_the_command_line_writes_a_crate_and_tells_what_it_does_not_take(runs, t
     assert "are not for a crate" in capsys.readouterr().err
     assert main(["export", str(runs.open), "-o", str(tmp_path / "b.svg"), "--author", "A"]) == 2
     assert "--author and --license are for a crate" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ({"authors": ["A. Botanist", " "]}, "author ' ': must be a name"),
+        ({"authors": ["\x1b"]}, "must be a name"),
+        ({"license": "not a url"}, "license 'not a url': must be the address of its text"),
+        ({"license": "https://"}, "must be the address"),
+        ({"license": "\x1b[2J a licence"}, "must be the address"),
+        ({"license": "x" * 5000}, "x ... xxxxxxxxxx': must be the address"),
+        ({"step": 9999}, "open.h5: step 9999 is not recorded; steps 0 to"),
+    ],
+)
+def test_what_a_crate_cannot_say_is_refused_before_it_is_made(runs, tmp_path, words, said):
+    with pytest.raises(VascError) as caught:
+        export_crate(runs.open, tmp_path / "a.crate", **words)
+    assert said in str(caught.value)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_run_that_is_not_there_is_named(tmp_path):
+    with pytest.raises(TimelineError, match=r"missing\.h5: no such file"):
+        export_crate(tmp_path / "missing.h5", tmp_path / "a.crate")

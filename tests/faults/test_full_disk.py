@@ -130,3 +130,24 @@ def test_disks_that_are_full(subject: Subject, sizes, tmp_path, report: Report):
     )
     assert not wrong
     assert n_ended or not n_tried
+
+
+VERBS = {
+    "export": ["leaf.svg", "tables.csv", "leaf.graphml", "series.pvd", "tissue.toml"],
+    "render": ["leaf.png", "leaf.pdf"],
+    "animate": ["leaf.gif"],
+}
+
+
+@pytest.mark.parametrize(("verb", "name"), [(verb, name) for verb in VERBS for name in VERBS[verb]])
+def test_what_is_made_of_a_run_ends_alike_on_a_full_disk(verb, name, tmp_path):
+    subject = next(one for one in subjects() if one.name == "leaf")
+    subject.measure(tmp_path)
+    run, output = tmp_path / "leaf.h5", tmp_path / "made"
+    output.mkdir()
+    arguments = [verb, str(run), "-o", str(output / name)]
+    ending = children.run(lambda: main(arguments), file_bytes=200)
+    assert (ending.answer, ending.signal) == (3, 0), ending
+    assert ending.said.strip().endswith("cannot be written: File too large"), ending.said
+    assert len(ending.said.splitlines()) == 1, ending.said
+    assert list(output.iterdir()) == []

@@ -1,8 +1,10 @@
 """What a user sees when something goes wrong: a line, and an exit code."""
 
 import difflib
+import errno
 import functools
 import os
+import signal
 import sys
 import traceback
 import warnings
@@ -17,11 +19,22 @@ from vasc.errors import ConfigError, VascError
 
 BAD_INPUT = 2
 FAILED_RUN = 3
-INTERRUPTED = 130
+NO_NAMES = (errno.ENAMETOOLONG, errno.ELOOP)
+"""Errors of the system by which a name is none of a file."""
 
 
 class InterruptedRunError(Exception):
-    """Ctrl-C, under a name that the library that reads the command line leaves alone."""
+    """Ctrl-C, under a name that the library that reads the command line leaves alone.
+
+    Parameters
+    ----------
+    number : int
+        The signal that came.
+    """
+
+    def __init__(self, number: int) -> None:
+        super().__init__()
+        self.number = number
 
 
 def interruptible(verb: Callable[..., None]) -> Callable[..., None]:
@@ -48,7 +61,7 @@ def interruptible(verb: Callable[..., None]) -> Callable[..., None]:
         try:
             verb(*arguments, **options)
         except KeyboardInterrupt as error:
-            raise InterruptedRunError from error
+            raise InterruptedRunError(getattr(error, "number", signal.SIGINT)) from error
 
     return called
 
@@ -137,7 +150,7 @@ def _described(error: BaseException, arguments: Sequence[str]) -> tuple[list[str
     if isinstance(error, VascError):
         return [_one_line(str(error))], error.exit_code
     if isinstance(error, InterruptedRunError | KeyboardInterrupt | typer.Abort):
-        return ["interrupted"], INTERRUPTED
+        return ["interrupted"], 128 + getattr(error, "number", signal.SIGINT)
     # usage errors of the library that reads the command line know how to say it
     say = getattr(error, "format_message", None)
     if say is not None:
@@ -145,7 +158,11 @@ def _described(error: BaseException, arguments: Sequence[str]) -> tuple[list[str
     if isinstance(error, MemoryError):
         return ["not enough memory for this"], FAILED_RUN
     if isinstance(error, OSError):
-        where = f"{error.filename}: " if error.filename else ""
+        from vasc.config.values import shortened
+
+        where = f"{shortened(str(error.filename))}: " if error.filename else ""
+        if error.errno in NO_NAMES:
+            return [f"{where}is not the name of a file: {error.strerror}"], BAD_INPUT
         return [_one_line(f"{where}{error.strerror or error}")], FAILED_RUN
     name = type(error).__name__
     return [

@@ -13,6 +13,20 @@ SIGNALS = tuple(
 )
 
 
+class StopAtOnceError(KeyboardInterrupt):
+    """A second signal, which no step is waited for.
+
+    Parameters
+    ----------
+    number : int
+        The signal.
+    """
+
+    def __init__(self, number: int) -> None:
+        super().__init__()
+        self.number = number
+
+
 class Interrupts:
     """While this context lasts, a signal is a wish to stop; a second one stops at once.
 
@@ -55,7 +69,7 @@ class Interrupts:
     def _note(self, number: int, frame: FrameType | None) -> None:
         """Note the first signal, give way to the second."""
         if self.number is not None:
-            raise KeyboardInterrupt
+            raise StopAtOnceError(number)
         self.number = number
         # not through sys.stderr, which may be in the middle of a line just now
         os.write(2, b"\nstopping after this step; once more stops at once\n")

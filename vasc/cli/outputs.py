@@ -104,7 +104,8 @@ def check_folder(path: Path) -> None:
     try:
         path.exists()
     except (OSError, ValueError) as error:
-        raise OutputError(f"{str(path)[:80]!r}: is not the name of a file: {error}") from error
+        why = getattr(error, "strerror", None) or error
+        raise OutputError(f"{str(path)[:80]!r}: is not the name of a file: {why}") from error
 
 
 def _is_same(path: Path, other: Path) -> bool:

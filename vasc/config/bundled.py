@@ -6,6 +6,7 @@ from pathlib import Path
 
 from vasc.config.attachments import referenced_files
 from vasc.config.reading import parse, read_text
+from vasc.config.values import shortened
 from vasc.errors import ConfigError, OutputError
 from vasc.whole_files import write_whole
 
@@ -148,8 +149,11 @@ def copy_bundled(name: str, folder: Path) -> list[Path]:
     known = sweep_paths() | bundled_paths()
     if name not in known:
         close = difflib.get_close_matches(name, known, n=1)
-        nearest = f"; nearest: {close[0]}" if close else f"; there are: {', '.join(known)}"
-        raise ConfigError(f"{name}: no bundled experiment has that name{nearest}")
+        nearest = f"; nearest: {close[0]}" if close else ""
+        raise ConfigError(
+            f"{shortened(name)}: no bundled experiment has that name{nearest}"
+            " (`vasc configs` lists them)"
+        )
     if not folder.is_dir():
         raise OutputError(f"{folder}: there is no such folder")
     tables = parse(read_text(known[name]), name)

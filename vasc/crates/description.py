@@ -106,10 +106,9 @@ def _describe_root(
         f" {timeline.growth}, seed {timeline.seed}, steps 0 to {timeline.last_step}{after}."
     )
     root["datePublished"] = _recorded_time(timeline)
-    root["license"] = NO_LICENSE if license is None else plain(license)
-    if license is not None and "://" in license:
-        properties = {"@type": "CreativeWork", "name": plain(license)}
-        root["license"] = _add(crate, plain(license), properties)
+    root["license"] = NO_LICENSE
+    if license is not None:
+        root["license"] = _add(crate, license, {"@type": "CreativeWork", "name": license})
     if people:
         root["author"] = _one_or_all(people)
     _add(crate, "#adam-runions", FIRST_AUTHOR)

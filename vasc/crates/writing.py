@@ -8,11 +8,13 @@ from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from vasc.config.values import shortened
 from vasc.crates.citation import citation_file
 from vasc.crates.description import CITATION, CONFIG, METADATA, TIMELINE, described
 from vasc.errors import OutputError, TimelineError
 from vasc.export.folders import check_folder, new_folder
 from vasc.export.tables import DESCRIPTION, write_tables
+from vasc.export.words import plain
 from vasc.render import render
 from vasc.timeline import Timeline
 
@@ -20,6 +22,7 @@ ENDING = "crate"
 """What the name of a crate ends in: ``crate/``, ``leaf.crate``, ``leaf-crate``."""
 FILES_KEY = "files"
 """Key of a recorded config under which the files that it refers to travel."""
+ADDRESS = re.compile(r"https?://[^\s<>\"\x00-\x1f]+")
 FOLDERS = {"config", "config/files", "figures", "tables"}
 
 
@@ -69,9 +72,9 @@ def export_crate(
     ------
     OutputError
         If the name is not that of a crate, its folder does not exist, or something of that name
-        exists and may not be replaced.
+        exists and may not be replaced; if an author has no name or the licence no address.
     TimelineError
-        If ``run`` is no timeline, has no step yet, or is being written.
+        If ``run`` is no timeline, lacks the step, or is being written.
     VascError
         If rocrate is not installed.
     """
@@ -80,6 +83,9 @@ def export_crate(
         raise OutputError(f"{output}: the name of a crate ends in {ENDING!r}")
     if not output.parent.is_dir():
         raise OutputError(f"{output}: folder {output.parent} does not exist")
+    _check_words(authors, license)
+    with Timeline(run) as timeline:
+        timeline.frame(step)
     listed = _listed(output) if force else set()
     check_folder(output, lambda path: _is_part(path.relative_to(output), path, listed), force=force)
     with new_folder(output) as folder:
@@ -93,6 +99,18 @@ def export_crate(
             crate = described(copied, files, folder, authors=authors, license=license)
         crate.metadata.write(folder)
     return output
+
+
+def _check_words(authors: Sequence[str], license: str | None) -> None:
+    """Refuse authors without a name, and a licence that has no address."""
+    for name in authors:
+        if not plain(name).strip():
+            raise OutputError(f"author {name!r}: must be a name, as 'A. Botanist'")
+    if license is not None and not ADDRESS.fullmatch(license):
+        raise OutputError(
+            f"license {shortened(license)!r}: must be the address of its text, as"
+            " https://spdx.org/licenses/CC-BY-4.0"
+        )
 
 
 def _fill(timeline: Timeline, folder: Path, step: int) -> dict[str, str]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vasc.analysis.run_widths import widths_of
 from vasc.analysis.widths import WidthParameters
-from vasc.errors import OutputError, VascError
+from vasc.errors import OutputError, VascError, writing
 from vasc.render.files import node_widths, open_run
 from vasc.render.leaf import draw_leaf, fitted_widths, narrowest_of, view_of
 from vasc.render.saving import checked_output
@@ -122,7 +122,8 @@ def animate(
             asked = widths or widths_of(timeline.config)
             look = LeafLook(color, asked, sources, scale_bar, style, side)
             figures = _leaf_figures(timeline, steps, look)
-        write(_told(map(_pixels, figures), len(steps), progress), output, film)
+        with writing(output):
+            write(_told(map(_pixels, figures), len(steps), progress), output, film)
     return output
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
 
-from vasc.errors import OutputError
+from vasc.errors import writing
 from vasc.sweeps.folder import SweepFolder
 from vasc.sweeps.reading import Sweep
 from vasc.sweeps.table import write_table
@@ -201,13 +201,11 @@ def _ended(sweep: Sweep, folder: SweepFolder, progress: Progress) -> Outcome:
     """Write table and figure."""
     from vasc.sweeps.picture import FIGURE, draw_sweep
 
-    try:
+    with writing(folder.path):
         files = [write_table(folder)]
         reason = ""
         if sweep.parameters.figure != "none" and not progress.left:
             figure = folder.path / FIGURE
             reason = draw_sweep(folder, figure)
             files += [] if reason else [figure]
-    except OSError as error:
-        raise OutputError(f"{folder.path}: cannot be written: {error.strerror}") from error
     return Outcome(progress, tuple(files), reason)

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from vasc.config.values import dotted, written
-from vasc.errors import OutputError
+from vasc.errors import OutputError, writing
 from vasc.sweeps.plan import PlannedRun
 from vasc.timeline.guard import SIGNATURE
 from vasc.whole_files import write_whole
@@ -65,11 +65,9 @@ class SweepFolder:
             If it belongs to another sweep or holds something else, or cannot be written.
         """
         self.check(description)
-        try:
+        with writing(self.path):
             self.runs.mkdir(parents=True, exist_ok=True)
             write_whole(self.path / DESCRIPTION, as_text({"format": FORMAT} | description))
-        except OSError as error:
-            raise OutputError(f"{self.path}: cannot be written: {error.strerror}") from error
 
     def check(self, description: dict[str, Any]) -> None:
         """Make sure that the folder is free for a sweep, or belongs to this very one.

@@ -18,6 +18,8 @@ from vasc.timeline.veins import Veins
 
 BESIDE = 1.0
 """Distance to a vein up to which a place off the blade is taken to be at that vein, in D."""
+FAR = 1e9
+"""Distance from which on it is not measured, in D."""
 
 
 class Recorded(run_genealogy.Recorded, Protocol):
@@ -120,7 +122,7 @@ def history_at(
     network = frame.network
     if not network.n_segments:
         raise TimelineError(f"{timeline.path}: there is no vein at step {frame.step}")
-    row, distance = _nearest(network, np.array(place))
+    row, distance = _nearest(network, np.clip(place, -FAR, FAR))
     if distance > BESIDE and not frame.blade.contains(np.array([place]))[0]:
         raise TimelineError(f"{timeline.path}: {_off(frame, place, distance)}")
     node = int(network.segments[row].max())
@@ -190,8 +192,9 @@ def _from_first(tree: Genealogy, areole: int) -> tuple[int, ...]:
 def _off(frame: Frame, place: tuple[float, float], distance: float) -> str:
     """Say that a place is off the blade, and where the blade is."""
     left, low, right, high = frame.blade.bounds
+    how_far = f"{distance:.4g} D from" if max(map(abs, place)) < FAR else "far from"
     return (
-        f"the place {place[0]:g},{place[1]:g} is off the blade, {distance:.4g} D from the nearest"
+        f"the place {place[0]:g},{place[1]:g} is off the blade, {how_far} the nearest"
         f" vein; at step {frame.step} the blade reaches from {left:.4g} to {right:.4g} across and"
         f" from {low:.4g} to {high:.4g} up, in D"
     )

@@ -19,11 +19,10 @@ from h5py import h5d, h5f, h5p, h5s, h5t
 from numpy.typing import NDArray
 
 from vasc.arrays import Column
-from vasc.errors import OutputError
+from vasc.errors import DiskError, OutputError
 from vasc.timeline.compressed import CompressedColumn
 from vasc.timeline.layout import PROVENANCE, fill_value
 from vasc.timeline.redo import (
-    DiskError,
     Durability,
     Pager,
     is_being_written,

@@ -7,7 +7,7 @@ commit. Nothing else in vasc writes HDF5 files.
 """
 
 from vasc.timeline.redo.contents import log_of
-from vasc.timeline.redo.disk import DiskError, MovedError, sync_folder
+from vasc.timeline.redo.disk import MovedError, sync_folder
 from vasc.timeline.redo.durability import Durability
 from vasc.timeline.redo.locks import BusyError, is_being_written
 from vasc.timeline.redo.log import problem_of, refuse_foreign, refuse_strange, writer_of
@@ -17,7 +17,6 @@ from vasc.timeline.redo.snapshot import Snapshot, steady
 
 __all__ = [
     "BusyError",
-    "DiskError",
     "Durability",
     "MovedError",
     "Pager",

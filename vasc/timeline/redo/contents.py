@@ -59,7 +59,7 @@ class Frame(NamedTuple):
 
 def log_of(path: Path) -> Path:
     """Give the log of a file; a link to a file has that of the file."""
-    place = path.resolve()
+    place = path.resolve() if path.is_symlink() else path
     return place.with_name(place.name + SUFFIX)
 
 

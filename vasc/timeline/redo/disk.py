@@ -14,12 +14,6 @@ BINARY: int = getattr(os, "O_BINARY", 0)
 """What Windows needs to be told."""
 
 
-class DiskError(OutputError):
-    """The disk does not take what is written; what was committed before is kept."""
-
-    exit_code = 3
-
-
 class MovedError(OutputError):
     """A file was moved, replaced or removed while it was written."""
 

@@ -6,9 +6,10 @@ import time
 from collections.abc import Iterable
 from pathlib import Path
 
+from vasc.errors import DiskError
 from vasc.timeline.redo import disk, locks
 from vasc.timeline.redo.contents import Identity, log_of
-from vasc.timeline.redo.disk import BINARY, DiskError
+from vasc.timeline.redo.disk import BINARY
 from vasc.timeline.redo.durability import BATCH_COMMITS, BATCH_SECONDS, Durability
 from vasc.timeline.redo.log import Log
 from vasc.timeline.redo.pages import Pages, Run
