@@ -9,7 +9,7 @@ from timeline.synthetic import contents
 
 from vasc.timeline import Timeline, validate
 
-FEW, MANY = 4, 50
+FEW, MANY = 2, 50
 
 
 @pytest.fixture(scope="module", params=SUBJECTS, ids=lambda subject: subject.name)
