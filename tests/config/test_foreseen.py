@@ -57,20 +57,9 @@ def with_memory(size, more):
     return ExpectedSize(sources=1, nodes=1, memory=size + more, file=1)
 
 
-@pytest.mark.parametrize("name", STEMS)
-def test_a_stem_is_no_larger_than_foreseen_and_no_less_than_a_twentieth(name, tmp_path):
-    experiment = load_text(STEMS[name])
-    size = foreseen(experiment.parameters, experiment.model())
-    summary = experiments.run(experiment, tmp_path / "stem.h5")
-    file = (tmp_path / "stem.h5").stat().st_size
-    assert summary.nodes <= size.nodes <= 20 * summary.nodes
-    assert summary.sources_placed <= size.sources
-    assert file <= size.file <= 20 * file
-
-
-@pytest.mark.parametrize("name", DOUBLINGS)
-def test_straight_veins_are_no_more_than_foreseen_and_no_less_than_a_twentieth(name, tmp_path):
-    experiment = load_text(DOUBLINGS[name])
+@pytest.mark.parametrize("name", [*STEMS, *DOUBLINGS])
+def test_a_run_is_no_larger_than_foreseen_and_no_less_than_a_twentieth(name, tmp_path):
+    experiment = load_text((STEMS | DOUBLINGS)[name])
     size = foreseen(experiment.parameters, experiment.model())
     summary = experiments.run(experiment, tmp_path / "run.h5")
     file = (tmp_path / "run.h5").stat().st_size
