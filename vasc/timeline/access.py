@@ -1,5 +1,6 @@
 """Reading columns of a file that may still be written: whole rows, or one clear error."""
 
+import contextlib
 import time
 from pathlib import Path
 from typing import Any
@@ -123,7 +124,10 @@ class OpenFile:
     def _noted_of(self, name: str) -> tuple[int, int]:
         """Give rows and checksum of a part of the file as noted; -1 rows if they were not."""
         if self._noted is None:
-            self._noted = checksums.noted(self.path, self.file, self.found)
+            self._noted = {}
+            # a run that is still being written has noted nothing of its last steps
+            with contextlib.suppress(*guard.TRANSIENT):
+                self._noted = checksums.noted(self.path, self.file, self.found)
         return self._noted.get(name, (-1, 0))
 
     def _compare(self, name: str, total: int) -> None:
