@@ -63,12 +63,24 @@ def test_every_stem_of_the_thesis_is_there():
     found = {}
     for name in STEMS:
         tables = load(name).tables
-        placement, radius = tables["placement"], tables["domain"]["radius"]
+        placement, radius = tables["placement"], tables["domain"].get("radius")
         key = (placement["divergence"], radius, placement["rise"], placement["plastochron"])
         found[key] = placement["primordia"]
     for row in STEM_PATTERNS:
         enough = 3 * max(row.pair) + 26
         assert found[row.divergence, row.radius, row.rise, row.plastochron] == enough
+
+
+def test_a_stem_that_widens_has_three_pairs_one_above_the_other(tmp_path):
+    run(load("stem-golden-widening"), tmp_path / "run.h5")
+    with Timeline(tmp_path / "run.h5") as timeline:
+        report = check_connectivity(read_stem(timeline))
+    steps = [report.connectivity.steps[m] for m in report.connectivity.judged]
+    assert steps[-13:] == [(5, 8)] * 13
+    assert steps[9:21] == [(3, 5)] * 12
+    assert steps[:9].count((2, 3)) == 8
+    assert len(report.exceptions) == 2
+    assert report.passed
 
 
 @pytest.mark.parametrize(

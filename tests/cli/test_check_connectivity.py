@@ -2,8 +2,11 @@
 
 import json
 import math
+import re
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 import typer
 from reference.stem_veins import laid_out
@@ -26,10 +29,18 @@ def read(monkeypatch, recorded):
     def reads(pair, radius=50.0, **options):
         stem = veins(pair, radius=radius)
         graph = StemGraph(*stem, math.radians(137.5), 10.0, radius, **options)
-        monkeypatch.setattr(reading, "read_stem", lambda timeline: graph)
+        put(graph)
         return recorded / "leaf.h5"
 
+    def put(graph):
+        monkeypatch.setattr(reading, "read_stem", lambda timeline: graph)
+
+    reads.put = put
     return reads
+
+
+def said(capsys):
+    return capsys.readouterr().out.splitlines()
 
 
 def test_what_is_no_stem_is_refused(recorded):
@@ -54,13 +65,12 @@ def test_the_predicted_pair_passes(read, capsys, tmp_path):
     assert "exceptions" not in text
 
 
-def test_a_tie_is_undecided_and_no_success(read, capsys, monkeypatch):
+def test_a_tie_is_undecided_and_no_success(read, capsys):
     # every second primordium is connected to the next one
     steps = [[m + 1, m + 2] if m % 2 else [m + 2] for m in range(40)]
     stem = laid_out(137.5, 16.0, 10.0, steps)
     path = read((1, 2))
-    graph = StemGraph(*stem, math.radians(137.5), 10.0, 16.0)
-    monkeypatch.setattr(reading, "read_stem", lambda timeline: graph)
+    read.put(StemGraph(*stem, math.radians(137.5), 10.0, 16.0))
     connectivity(path)
     lines = capsys.readouterr().out.splitlines()
     connected = next(line for line in lines if line.startswith("connected"))
@@ -69,10 +79,31 @@ def test_a_tie_is_undecided_and_no_success(read, capsys, monkeypatch):
     assert "pass" not in "".join(lines)
 
 
-def test_the_radius_that_is_judged_by_is_told_where_it_changes(read, capsys):
-    connectivity(read((3, 5), radius_range=(40.0, 100.0)))
-    text = capsys.readouterr().out
-    assert "40 to 100, R/H 4 to 10; judged by that at the middle primordium" in text
+def test_where_the_radius_changes_each_primordium_is_judged_by_its_own(read, capsys):
+    # at R = 100 and H = 10 the pair is (5, 8)
+    radii = np.where(np.arange(60) < 25, 50.0, 100.0)
+    steps = [[m + 3, m + 5] if m < 25 else [m + 5, m + 8] for m in range(60)]
+    path, stem = read((3, 5)), laid_out(137.5, 50.0, 10.0, steps)
+    graph = StemGraph(*stem, math.radians(137.5), 10.0, 50.0, radii=radii)
+    read.put(graph)
+    connectivity(path)
+    lines = dict(re.split(r"  +", line, maxsplit=1) for line in said(capsys) if "  " in line)
+    assert lines["R along the stem"].startswith("50 to 100, R/H 5 to 10; ")
+    assert lines["connected"] == "(3, 5) from 14 to 24; (5, 8) from 25 to 41"
+    assert lines["predicted"] == lines["connected"]
+    assert lines["as their own R/H predicts"] == "1.000 of those judged"
+    read.put(replace(graph, radii=np.full(60, 50.0)))
+    with pytest.raises(typer.Exit):
+        connectivity(path, as_json=True)
+    found = json.loads(capsys.readouterr().out)
+    # as 50 D wants no 8, fewer primordia at the ends are left out: 11 to 47
+    assert found["local_fraction"] == pytest.approx(14 / 37)
+    assert found["exceptions"][0] == {
+        "primordium": 25,
+        "steps": [5, 8],
+        "missing": [3],
+        "extra": [8],
+    }
     connectivity(read((3, 5)))
     assert "along the stem" not in capsys.readouterr().out
 

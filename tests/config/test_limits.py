@@ -115,8 +115,12 @@ def test_every_bundled_config_could_be_half_as_long_again():
         tables = load(one.name).tables
         if tables["kind"] == "stem":
             rise = 1.5 * tables["placement"]["rise"]
-            radius = 1.5 * tables["domain"]["radius"]
-            larger = [f"placement.rise={rise}", f"domain.radius={radius}"]
+            domain = tables["domain"]
+            if "radii" in domain:
+                wider = f"domain.radii={[[1.5 * z, 1.5 * radius] for z, radius in domain['radii']]}"
+            else:
+                wider = f"domain.radius={1.5 * domain['radius']}"
+            larger = [f"placement.rise={rise}", wider]
             load(one.name, [parse_override(change) for change in larger])
             continue
         if "growth" not in tables:

@@ -1,6 +1,7 @@
 """What ``vasc check connectivity`` tells people."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from itertools import groupby
 from math import degrees, inf
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ from vasc.validation.stem_phyllotaxis.report import NEARBY
 
 def print_connectivity(report: ConnectivityReport, path: Path, output: Path | None) -> None:
     """Write the report on connectivity for people."""
-    tie, tied = report.tie, report.prediction.tied
+    tie, tied = None if report.local else report.tie, report.prediction.tied
     print_pairs(_stem_lines(report) | _connection_lines(report))
     if report.exceptions:
         typer.echo("\nexceptions" if tie is None else "\nprimordia without all of these")
@@ -29,7 +30,10 @@ def print_connectivity(report: ConnectivityReport, path: Path, output: Path | No
     if output is not None:
         typer.echo(f"written: {output}")
     if tie is None:
-        asked = f"the predicted pair, and a share of {report.least_fraction:g}"
+        what = (
+            "the predicted pair, and" if report.local is None else "what their own R/H predicts, at"
+        )
+        asked = f"{what} a share of {report.least_fraction:g}"
         typer.echo(f"{path}: {'pass' if report.passed else 'FAIL'}; asked: {asked}")
     elif report.passed:
         typer.echo(f"{path}: tied, {_pair(tied)} undecided; what is no tie is as predicted")
@@ -52,7 +56,8 @@ def _stem_lines(report: ConnectivityReport) -> dict[str, Any]:
         least, largest = graph.radius_range
         lines["R along the stem"] = (
             f"{shown(least)} to {shown(largest)}, R/H {least / graph.rise:.4g} to"
-            f" {largest / graph.rise:.4g}; judged by that at the middle primordium"
+            f" {largest / graph.rise:.4g}; what follows is of the middle primordium, but for"
+            " connected and predicted"
         )
     judged = report.connectivity.judged
     n_primordia = len(graph.primordia)
@@ -73,6 +78,13 @@ def _connection_lines(report: ConnectivityReport) -> dict[str, Any]:
         f" {'opposed' if parastichies.is_opposed else 'not opposed'}",
         "separate sympodia": n_systems,
     }
+    if report.local is not None:
+        judged = report.connectivity.judged
+        return lines | {
+            "connected": _along({m: report.connectivity.steps[m] for m in judged}),
+            "predicted": _along({m: report.local[m] for m in judged}),
+            "as their own R/H predicts": f"{report.local_fraction:.3f} of those judged",
+        }
     if tie is None:
         return lines | {"exactly the pair": f"{report.fraction:.3f} of those judged"}
     firm = tuple(step for step in report.steps if step not in tie.steps)
@@ -96,3 +108,13 @@ def _pair(steps: Iterable[int]) -> str:
     """Write steps as the papers do; a dash for none."""
     text = ", ".join(str(step) for step in steps)
     return f"({text})" if text else "-"
+
+
+def _along(steps: Mapping[int, tuple[int, ...]]) -> str:
+    """Write the steps of primordia from below, those of neighbors together."""
+    told = []
+    for each, group in groupby(steps, key=lambda number: steps[number]):
+        numbers = list(group)
+        ends = dict.fromkeys((numbers[0], numbers[-1]))
+        told.append(f"{_pair(each)} from {' to '.join(map(str, ends))}")
+    return "; ".join(told)

@@ -40,7 +40,14 @@ STATISTICS = (
 LINEAGE = ("source_life_mean", "source_life_median", "sources_unreached", "nodes_per_source")
 CONNECTIVITY = (
     *("divergence", "rise", "radius", "per_level", "ratio", "primordia", "links", "pair"),
-    *("fraction", "least_fraction", "predicted", "predicted_on_surface", "exceptions"),
+    *(
+        "fraction",
+        "local_fraction",
+        "least_fraction",
+        "predicted",
+        "predicted_on_surface",
+        "exceptions",
+    ),
     *("sympodia", "pass"),
 )
 STRAND = (

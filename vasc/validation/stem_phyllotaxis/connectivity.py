@@ -6,7 +6,7 @@ tells neighbours is the relative neighbourhood once more, with distances along v
 """
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -40,7 +40,7 @@ class Deviation:
     steps : tuple of int
         Its steps upward.
     missing, extra : tuple of int
-        What it lacks of the steps of most, and what it has beyond them.
+        What it lacks of the steps expected, and what it has beyond them.
     """
 
     primordium: int
@@ -86,17 +86,20 @@ class Connectivity:
         """Give the share of the judged primordia whose steps are among those allowed."""
         return sum(self.steps[m] in allowed for m in self.judged) / len(self.judged)
 
-    def exceptions(self, expected: Steps) -> tuple[Deviation, ...]:
-        """Give the judged primordia whose steps are not those expected, from below."""
+    def exceptions(self, expected: Steps | Mapping[int, Steps]) -> tuple[Deviation, ...]:
+        """Give the judged primordia whose steps are not those expected, of all or of each."""
+        of_each = (
+            expected if isinstance(expected, Mapping) else dict.fromkeys(self.judged, expected)
+        )
         return tuple(
             Deviation(
                 m,
                 self.steps[m],
-                tuple(sorted(set(expected) - set(self.steps[m]))),
-                tuple(sorted(set(self.steps[m]) - set(expected))),
+                tuple(sorted(set(of_each[m]) - set(self.steps[m]))),
+                tuple(sorted(set(self.steps[m]) - set(of_each[m]))),
             )
             for m in self.judged
-            if self.steps[m] != expected
+            if self.steps[m] != of_each[m]
         )
 
 

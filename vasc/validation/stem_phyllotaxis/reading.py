@@ -31,7 +31,6 @@ def read_stem(timeline: Timeline) -> StemGraph:
     placement: dict[str, Any] = timeline.config["placement"]
     # a stem without primordia has the radius of its ring
     known = stem.radii[stem.primordia if len(stem.primordia) else stem.ring]
-    ends = float(known.min()), float(known.max())
     return StemGraph(
         positions=stem.positions,
         segments=stem.segments,
@@ -41,5 +40,5 @@ def read_stem(timeline: Timeline) -> StemGraph:
         rise=float(placement["rise"]),
         radius=float(known[len(known) // 2]),
         per_level=int(placement["per_level"]),
-        radius_range=ends if ends[0] < ends[1] else None,
+        radii=stem.radii[stem.primordia] if known.min() < known.max() else None,
     )

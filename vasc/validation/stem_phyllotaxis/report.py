@@ -1,7 +1,8 @@
 """What the connectivity checker says: what veins connect, what was predicted, and why."""
 
 from collections import Counter
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
 from math import degrees, inf
 from typing import Any
 
@@ -48,6 +49,8 @@ class ConnectivityReport:
         Of the lattice.
     least_fraction : float
         Share of the judged primordia that must have exactly the pair.
+    local : mapping of int to tuple of int, optional
+        The steps that the radius at each primordium predicts, where the radius changes.
     """
 
     graph: StemGraph
@@ -58,6 +61,7 @@ class ConnectivityReport:
     tie: TieVerdict | None
     parastichies: ContactParastichies
     least_fraction: float = LEAST_FRACTION
+    local: Mapping[int, Steps] | None = None
 
     @property
     def steps(self) -> Steps:
@@ -83,13 +87,25 @@ class ConnectivityReport:
         return self.connectivity.share({self.steps})
 
     @property
+    def local_fraction(self) -> float | None:
+        """Share of the judged primordia that have exactly what their own radius predicts."""
+        if self.local is None:
+            return None
+        return 1.0 - len(self.exceptions) / len(self.connectivity.judged)
+
+    @property
     def exceptions(self) -> tuple[Deviation, ...]:
-        """The judged primordia that have other steps than the pair."""
-        return self.connectivity.exceptions(self.steps)
+        """The judged primordia that have other steps than the pair, or than predicted there."""
+        return self.connectivity.exceptions(self.steps if self.local is None else self.local)
 
     @property
     def passed(self) -> bool:
-        """The pair is the predicted one, and enough primordia have it; ties have their rule."""
+        """The pair is the predicted one, and enough primordia have it; ties have their rule.
+
+        Of a stem whose radius changes enough primordia have what their own radius predicts.
+        """
+        if self.local_fraction is not None:
+            return self.local_fraction >= self.least_fraction
         is_enough = self.fraction >= self.least_fraction if self.tie is None else self.tie.passed
         return self.pair == self.prediction.pair and is_enough
 
@@ -114,6 +130,7 @@ class ConnectivityReport:
             "links": [list(link) for link in self.connectivity.links],
             "pair": list(self.pair),
             "fraction": self.fraction,
+            "local_fraction": self.local_fraction,
             "least_fraction": self.least_fraction,
             "predicted": list(self.prediction.pair),
             "predicted_on_surface": list(self.surface.pair),
@@ -150,15 +167,16 @@ def check_connectivity(
     Raises
     ------
     VascError
-        If there are fewer than 3 b + 20 primordia, with b the largest step predicted.
+        If there are fewer than 3 b + 20 primordia, with b the largest step predicted anywhere.
 
     References
     ----------
     Runions (2008), chapter 6.
     """
     lattice = graph.lattice
-    prediction = predict(lattice)
-    connectivity = measure_connectivity(graph, prediction.steps[-1])
+    prediction, local = predict(lattice), _local(graph)
+    steps = [prediction.steps, *(local or {}).values()]
+    connectivity = measure_connectivity(graph, max(each[-1] for each in steps))
     return ConnectivityReport(
         graph=graph,
         connectivity=connectivity,
@@ -168,7 +186,16 @@ def check_connectivity(
         tie=judge_tie(connectivity, prediction),
         parastichies=contact_parastichies(lattice),
         least_fraction=least_fraction,
+        local=local,
     )
+
+
+def _local(graph: StemGraph) -> dict[int, Steps] | None:
+    """Give the steps that the radius at each primordium predicts, if it is not the same for all."""
+    if graph.radii is None:
+        return None
+    lattices = (replace(graph.lattice, radius=float(radius)) for radius in graph.radii)
+    return {number: predict(lattice).steps for number, lattice in enumerate(lattices)}
 
 
 def _interval(graph: StemGraph) -> Interval:

@@ -32,8 +32,8 @@ class StemGraph:
         Of the stem, in D; that at the middle primordium where it changes.
     per_level : int
         Primordia a level; those of one level follow each other.
-    radius_range : tuple of float, optional
-        Its least and largest at the primordia, in D; None where it is the same for all.
+    radii : ndarray of shape (p,), float64, optional
+        Its radius at each primordium, in D; None where it is the same for all.
 
     Raises
     ------
@@ -51,7 +51,7 @@ class StemGraph:
     rise: float
     radius: float
     per_level: int = 1
-    radius_range: tuple[float, float] | None = None
+    radii: Floats | None = None
 
     def __post_init__(self) -> None:
         if self.positions.ndim != 2 or self.positions.shape[1] != 3:
@@ -66,12 +66,19 @@ class StemGraph:
             ("ring", self.ring),
         ):
             _check_ids(name, ids, len(self.positions))
+        if self.radii is not None and self.radii.shape != self.primordia.shape:
+            raise ShapeError(f"radii: expected one a primordium, got shape {self.radii.shape}")
         _ = self.lattice
 
     @property
     def lattice(self) -> PrimordiumLattice:
         """The lattice that the primordia were placed on."""
         return PrimordiumLattice(self.divergence, self.rise, self.radius, self.per_level)
+
+    @property
+    def radius_range(self) -> tuple[float, float] | None:
+        """Least and largest radius at the primordia, in D; None where all have the same."""
+        return None if self.radii is None else (float(self.radii.min()), float(self.radii.max()))
 
 
 def _check_ids(name: str, ids: NDArray, n_nodes: int) -> None:
