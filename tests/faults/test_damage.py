@@ -2,6 +2,8 @@
 
 import random
 from collections import Counter
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -15,6 +17,8 @@ from vasc.timeline import Timeline, guard, validate
 
 BATCH = 50
 """Damages that one child looks at."""
+Damage = Callable[[], bytes]
+"""Makes the bytes of a damaged file; all of them at once would leave a child no memory."""
 
 
 @pytest.fixture(scope="module", params=subjects(), ids=lambda subject: subject.name)
@@ -47,15 +51,15 @@ def sorted_out(subject: Subject, path: Path) -> str:
     return "the same" if is_same else "silently wrong"
 
 
-def sort_out(subject: Subject, path: Path, damages: list[bytes]) -> Counter:
+def sort_out(subject: Subject, path: Path, damages: list[Damage]) -> Counter:
     """Look at damaged files, each batch in a child with little memory."""
     found: Counter = Counter()
 
-    def look(batch: list[bytes]) -> list[str]:
+    def look(batch: list[Damage]) -> list[str]:
         guard.PAUSES = ()
         answers = []
-        for content in batch:
-            path.write_bytes(content)
+        for damage in batch:
+            path.write_bytes(damage())
             answers.append(sorted_out(subject, path))
         return answers
 
@@ -66,8 +70,8 @@ def sort_out(subject: Subject, path: Path, damages: list[bytes]) -> Counter:
             found.update(ending.answer)
             continue
         # one of them has ended the child: which?
-        for content in batch:
-            ending = children.run(lambda one=content: look([one]), memory=children.MEMORY)
+        for damage in batch:
+            ending = children.run(lambda one=damage: look([one]), memory=children.MEMORY)
             is_told = isinstance(ending.answer, list)
             found.update(ending.answer if is_told else [f"ended by {ending}"[:200]])
     path.unlink()
@@ -79,10 +83,20 @@ def lost(found: Counter) -> dict[str, int]:
     return {name: n for name, n in found.items() if name not in ("told", "the same")}
 
 
+def cut(raw: bytes, size: int) -> bytes:
+    return raw[:size]
+
+
+def flipped(raw: bytes, place: int, bit: int) -> bytes:
+    content = bytearray(raw)
+    content[place] ^= 1 << bit
+    return bytes(content)
+
+
 @tiered(step=(96 << 10, 4 << 10, 1 << 10))
 def test_a_file_that_was_cut(subject: Subject, step, tmp_path, report: Report):
     raw = (subject.folder / f"{subject.name}.h5").read_bytes()
-    damages = [raw[:size] for size in range(0, len(raw), step)]
+    damages = [partial(cut, raw, size) for size in range(0, len(raw), step)]
     found = sort_out(subject, tmp_path / "run.h5", damages)
     report.add(f"cut ({subject.name})", tried=len(damages), lost=len(damages) - found["told"])
     assert found == {"told": len(damages)}
@@ -91,11 +105,9 @@ def test_a_file_that_was_cut(subject: Subject, step, tmp_path, report: Report):
 @tiered(flips=(12, 200, 1000))
 def test_bits_that_have_flipped(subject: Subject, flips, tmp_path, report: Report):
     raw = (subject.folder / f"{subject.name}.h5").read_bytes()
-    chance, damages = random.Random(6), []
-    for _ in range(flips):
-        content = bytearray(raw)
-        content[chance.randrange(len(raw))] ^= 1 << chance.randrange(8)
-        damages.append(bytes(content))
+    chance = random.Random(6)
+    places = [(chance.randrange(len(raw)), chance.randrange(8)) for _ in range(flips)]
+    damages = [partial(flipped, raw, *place) for place in places]
     found = sort_out(subject, tmp_path / "run.h5", damages)
     report.add(
         f"a flipped bit ({subject.name})",

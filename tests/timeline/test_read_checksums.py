@@ -9,7 +9,7 @@ from timeline.synthetic import record, resume
 
 from vasc.cli.program import main
 from vasc.errors import TimelineError
-from vasc.timeline import Recorder, Timeline
+from vasc.timeline import Recorder, Timeline, guard
 from vasc.timeline.redo import log_of, settle
 
 READERS = {
@@ -112,3 +112,24 @@ def test_damage_without_checksums_is_told_too(tmp_path, name, value, said):
         with pytest.raises(TimelineError) as caught, Timeline(copy) as timeline:
             ask(timeline)
         assert said in str(caught.value)
+
+
+@pytest.mark.parametrize("error", guard.TRANSIENT)
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda timeline: timeline.initial_blade,
+        lambda timeline: timeline.config_toml,
+        lambda timeline: timeline.event_names,
+        lambda timeline: timeline.provenance,
+    ],
+    ids=["array", "text", "attributes", "provenance"],
+)
+def test_what_hdf5_cannot_open_is_damage(path, ask, error, monkeypatch):
+    def refuse(*_):
+        raise error("dataspace dim 0 is greater than maxdim")
+
+    with Timeline(path) as timeline:
+        monkeypatch.setattr(guard, "open_item", refuse)
+        with pytest.raises(TimelineError, match=r"run.h5: .* is damaged: .*maxdim"):
+            ask(timeline)

@@ -2,6 +2,7 @@
 
 import contextlib
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -86,11 +87,11 @@ class OpenFile:
         TimelineError
             If it is missing, of another type than the layout says, or not what was recorded.
         """
-        self._check_open()
         column = layout.STATIC[name]
-        dataset = guard.open_dataset(self.path, self.file, name)
-        guard.check_column(self.path, name, dataset, column)
-        values = dataset[:]
+        with self.readable(name):
+            dataset = guard.open_dataset(self.path, self.file, name)
+            guard.check_column(self.path, name, dataset, column)
+            values = dataset[:]
         self._compare(name, checksums.of_value(values))
         return values
 
@@ -102,11 +103,11 @@ class OpenFile:
         TimelineError
             If it is missing, no text, or not what was recorded.
         """
-        self._check_open()
-        dataset = guard.open_dataset(self.path, self.file, name)
-        if dataset.dtype.kind != "S" or dataset.shape != ():
-            raise TimelineError(f"{self.path}: {name} is not a text")
-        raw = dataset[()]
+        with self.readable(name):
+            dataset = guard.open_dataset(self.path, self.file, name)
+            if dataset.dtype.kind != "S" or dataset.shape != ():
+                raise TimelineError(f"{self.path}: {name} is not a text")
+            raw = dataset[()]
         self._compare(name, checksums.of_value(raw))
         return raw.decode(errors="replace")
 
@@ -116,10 +117,25 @@ class OpenFile:
         Raises
         ------
         TimelineError
-            If it is missing or reached by a link.
+            If it is missing, damaged or reached by a link.
+        """
+        with self.readable(name):
+            return guard.open_item(self.path, self.file, name)
+
+    @contextlib.contextmanager
+    def readable(self, name: str) -> Iterator[None]:
+        """Tell what HDF5 cannot read as damage.
+
+        Raises
+        ------
+        TimelineError
+            If it cannot, or the file is closed.
         """
         self._check_open()
-        return guard.open_item(self.path, self.file, name)
+        try:
+            yield
+        except guard.TRANSIENT as error:
+            raise TimelineError(f"{self.path}: {name} is damaged: {reason(error)}") from error
 
     def _noted_of(self, name: str) -> tuple[int, int]:
         """Give rows and checksum of a part of the file as noted; -1 rows if they were not."""

@@ -151,7 +151,8 @@ class Timeline:
     @cached_property
     def provenance(self) -> list[dict[str, Any]]:
         """One dict a session (run, resume), as the provenance schema describes it."""
-        return sessions(opening.read_records(self.path, self.opened.file))
+        with self.opened.readable(layout.PROVENANCE):
+            return sessions(opening.read_records(self.path, self.opened.file))
 
     @cached_property
     def event_names(self) -> dict[int, str]:
