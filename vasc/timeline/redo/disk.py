@@ -77,6 +77,11 @@ def sync(handle: int) -> None:
     _patiently(partial(system.sync, handle))
 
 
+def remove(path: Path) -> None:
+    """Remove a file."""
+    _patiently(partial(system.remove, path))
+
+
 def sync_folder(folder: Path) -> None:
     """Bring the names in a folder to the disk, where the system can."""
     try:

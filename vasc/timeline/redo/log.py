@@ -144,7 +144,7 @@ class Log:
         """Let the log go."""
         try:
             if remove and disk.is_named(self.handle, self.path):
-                disk.system.remove(self.path)
+                disk.remove(self.path)
         finally:
             os.close(self.handle)
 
