@@ -14,7 +14,7 @@ from vasc.errors import TimelineError
 from vasc.timeline import layout
 from vasc.timeline.layout import Motion
 from vasc.timeline.outlines import arrays_of_blade
-from vasc.timeline.redo import Durability, settle, sync_folder
+from vasc.timeline.redo import Durability, log_of, settle, sync_folder
 from vasc.timeline.storage import Store, beside, check_output, publish
 from vasc.timeline.tissues import arrays_of, check_room
 
@@ -104,9 +104,11 @@ def create_file(
                 store.close()
         finally:
             store.give_up()
+        # a log that is there goes with its file: the new one has one of its own
         if path.exists():
-            # its log goes with it: the new file has one of its own
             settle(path)
+        elif force:
+            log_of(path).unlink(missing_ok=True)
         publish(unready, path, force=force)
         if durability != Durability.PROCESS:
             sync_folder(path.absolute().parent)

@@ -310,7 +310,8 @@ def check_output(path: Path, *, force: bool) -> None:
     # also where a run's file was moved away
     if is_being_written(path, log_of(path)):
         raise OutputError(f"{path}: is being written by {writer_of(log_of(path))}")
-    refuse_strange(path)
+    if path.exists() or not force:
+        refuse_strange(path)
 
 
 def beside(path: Path) -> Path:

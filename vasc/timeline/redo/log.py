@@ -208,7 +208,8 @@ def refuse_strange(path: Path) -> None:
     """
     with _opened(path) as found:
         if found.is_strange:
-            raise OutputError(_strange(log_of(path), found))
+            hint = "" if path.exists() else ", or use --force to begin anew"
+            raise OutputError(_strange(log_of(path), found) + hint)
 
 
 def _strange(log: Path, found: Contents) -> str:
