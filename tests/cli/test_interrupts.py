@@ -26,14 +26,6 @@ ROOT = Path(__file__).resolve().parents[2]
 LONG = ["--set", "growth.final_length=4000", "--set", "placement.density=2e-4"]
 
 
-@pytest.fixture(autouse=True)
-def hangups():
-    """Heed hangups, also where the tests themselves are started by `nohup`."""
-    before = signal.signal(signal.SIGHUP, signal.SIG_DFL)
-    yield
-    signal.signal(signal.SIGHUP, before)
-
-
 def start(folder, *arguments, **options):
     """Start the program."""
     return subprocess.Popen(
