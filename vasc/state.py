@@ -171,6 +171,12 @@ class State:
         """Give the number of rows of a table at this step."""
         return self.counts[list(TABLE_COLUMNS).index(table)]
 
+    @property
+    def n_vein_nodes(self) -> int:
+        """Number of nodes of the veins, without those that refinement has retired."""
+        retired = self.rows("events", "kind") == EventKind.NODE_RETIRED
+        return self.n_rows("nodes") - int(np.count_nonzero(retired))
+
     def rows(self, table: str, column: str) -> NDArray:
         """Give a column of a table as it was at this step."""
         return self.tables[table].view(column, 0, self.n_rows(table))

@@ -136,7 +136,7 @@ def states(n_states):
             time=float(step),
             blade=SimpleNamespace(length=20.0 + step),
             live=np.zeros(7),
-            n_rows=lambda table: 1234,
+            n_vein_nodes=1234,
         )
 
 

@@ -35,6 +35,7 @@ def prepare(folder, recorded):
     (folder / "folder").mkdir()
     (folder / "foreign.h5").write_bytes((folder / "leaf.h5").read_bytes())
     log_of(folder / "foreign.h5").write_text("my own notes\n")
+    (folder / "sweep.toml").write_text('base = "leaf.toml"\nmeasures = ["summary.nodes"]\n')
     text = (folder / "leaf.toml").read_text()
     (folder / "key.toml").write_text(text.replace("density", "densty"))
     (folder / "value.toml").write_text(text.replace("length = 20.0", "length = -20.0"))

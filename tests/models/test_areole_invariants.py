@@ -83,6 +83,7 @@ def test_every_link_closes_one_face(name):
         assert n_links == count(state, EventKind.LOOP_CLOSED)
         assert n_links == (state.rows("segments", "kind") == SegmentKind.JOIN).sum()
         assert graph.number_of_nodes() == is_alive(state).sum()
+        assert state.n_vein_nodes == state.network.n_vein_nodes == graph.number_of_nodes()
         # no segment twice
         assert graph.number_of_edges() == len(segments)
         assert nx.is_connected(graph)

@@ -47,6 +47,6 @@ class ProgressLine(TerminalLine):
         blade = f"  blade {state.blade.length:.4g} D" if state.blade is not None else ""
         self.write(
             f"step {state.step:,}  time {state.time:g}{blade}"
-            f"  nodes {state.n_rows('nodes'):,}  sources {len(state.live):,}"
+            f"  nodes {state.n_vein_nodes:,}  sources {len(state.live):,}"
             f"  {self._rate:,.0f} steps/s"
         )

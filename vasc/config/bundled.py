@@ -13,6 +13,9 @@ from vasc.whole_files import write_whole
 SWEEPS = "sweeps"
 """Folder of the sweeps, among the experiments."""
 
+IS_SWEEP = "is a sweep, not an experiment; `vasc sweep` runs it"
+IS_EXPERIMENT = "is an experiment, not a sweep; `vasc run` runs it, a sweep names it as its base"
+
 _PACKAGE = Path(__file__).resolve().parent.parent
 
 
@@ -79,7 +82,7 @@ def find_config(source: str | Path) -> Path:
     ConfigError
         If there is neither.
     """
-    return _find(source, bundled_paths(), "experiment")
+    return _find(source, bundled_paths(), "experiment", dict.fromkeys(sweep_paths(), IS_SWEEP))
 
 
 def find_sweep(source: str | Path) -> Path:
@@ -100,11 +103,11 @@ def find_sweep(source: str | Path) -> Path:
     ConfigError
         If there is neither.
     """
-    return _find(source, sweep_paths(), "sweep")
+    return _find(source, sweep_paths(), "sweep", dict.fromkeys(bundled_paths(), IS_EXPERIMENT))
 
 
-def _find(source: str | Path, known: dict[str, Path], what: str) -> Path:
-    """Give a file of that name, or a bundled one of those known."""
+def _find(source: str | Path, known: dict[str, Path], what: str, others: dict[str, str]) -> Path:
+    """Give a file of that name, or a bundled one of those known; tell those of another kind."""
     if not str(source).isprintable():
         raise ConfigError(f"{str(source)[:80]!r}: is not the name of a file")
     path = Path(source)
@@ -115,6 +118,8 @@ def _find(source: str | Path, known: dict[str, Path], what: str) -> Path:
         raise ConfigError(f"{str(source)[:80]!r}: is not the name of a file") from error
     if str(source) in known:
         return known[str(source)]
+    if str(source) in others:
+        raise ConfigError(f"{source}: {others[str(source)]}")
     close = difflib.get_close_matches(path.stem, known, n=1)
     nearest = f"; nearest: {close[0]}" if close else ""
     raise ConfigError(

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from vasc.config.attachments import missing_files, packed, refuse_referenced, unpacked
-from vasc.config.bundled import find_config
+from vasc.config.bundled import IS_SWEEP, find_config
 from vasc.config.changes import heading
 from vasc.config.limits import blade_problems, size_problems
 from vasc.config.overrides import Override, overridden
@@ -158,6 +158,8 @@ def load_text(
     """
     label, changes = label or name, list(overrides)
     tables = parse(text, label)
+    if "base" in tables and "kind" not in tables:
+        raise ConfigError(f"{label}: {IS_SWEEP}")
     if changes:
         tables = overridden(tables, changes)
         refuse_deep(tables, label)

@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from vasc.config import Experiment, load_text
-from vasc.config.bundled import bundled_folder, find_config, find_sweep
+from vasc.config.bundled import IS_EXPERIMENT, bundled_folder, find_config, find_sweep
 from vasc.config.messages import problems
 from vasc.config.reading import parse, read_text
 from vasc.config.schema import json_schema_of
@@ -121,6 +121,8 @@ def load_sweep(source: str | Path) -> Sweep:
 
 def _checked(tables: dict[str, Any], label: str) -> SweepParameters:
     """Make the parameters; a problem becomes one line that begins with the label."""
+    if "kind" in tables and "base" not in tables:
+        raise ConfigError(f"{label}: {IS_EXPERIMENT}")
     for name in VARIED:
         if isinstance(tables.get(name), dict):
             tables[name] = dict(_flattened(tables[name]))
