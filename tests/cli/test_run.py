@@ -178,7 +178,7 @@ def test_a_number_out_of_the_useful_range_is_warned_of(here, capsys):
     assert main(["run", "leaf.toml", "--no-figure", *change]) == 0
     said = capsys.readouterr()
     assert "v = 20 (margin speed over vein speed): the margin outruns the veins" in said.out
-    assert said.err.startswith("warning: v = 20 is above 6")
+    assert said.err.startswith("warning: v = 20 is not below 6")
 
 
 @pytest.mark.parametrize("verb", ["resume", "verify", "show", "events", "stats"])

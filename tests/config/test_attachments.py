@@ -110,7 +110,7 @@ def test_a_record_of_another_version_is_told_as_a_config_is():
 @pytest.mark.parametrize(
     ("record", "key"),
     [
-        ({"kind": "young-open"}, 'kind = "young-open"'),
+        ({"kind": "unheard-open"}, 'kind = "unheard-open"'),
         ({"kind": "open", "growth": {"kind": "spiral"}}, 'growth.kind = "spiral"'),
     ],
 )

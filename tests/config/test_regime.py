@@ -50,8 +50,9 @@ def test_reticulate_as_printed_is_a_fan():
         (0.8, "pinnate", False),
         (1.5, "ladder", False),
         (3.0, "ladder", False),
-        (5.0, "between a leaf with a midvein and a fan", False),
-        (6.5, "the margin outruns the veins: a fan", True),
+        (5.0, "between a midvein with secondaries and a fan", False),
+        (6.0, "the margin outruns the veins", True),
+        (6.5, "a fan, as without growth", True),
         (0.05, "pinnate", True),
     ],
 )
@@ -59,6 +60,7 @@ def test_a_margin_has_the_class_of_the_thesis(speed, word, is_warned):
     found = regime_of(linear("marginal", 400.0, speed))
     assert found.numbers == {"margin_speed": pytest.approx(speed)}
     assert word in found.sentences[0]
+    assert "in an ovate leaf of closed veins" in found.sentences[0]
     assert bool(found.warnings) == is_warned
 
 

@@ -10,6 +10,7 @@ from reference.recordings import Recording
 from vasc.errors import OutputError, VascError
 from vasc.render import Film, animate
 from vasc.render.animation import chosen_steps
+from vasc.render.styles import LeafStyle
 
 SHORT = Film(n_pictures=3, pictures_per_second=10, pixels=200, rest=0.2)
 
@@ -29,6 +30,16 @@ def test_a_gif_shows_the_steps_at_one_scale(tmp_path):
             is_green = (picture[:, :, 1] > picture[:, :, 0] + 4) & (picture[:, :, 1] > 200)
             heights.append(np.ptp(np.flatnonzero(is_green.any(axis=1))))
     assert np.array(heights) / heights[-1] == pytest.approx([0.5, 0.75, 1.0], abs=0.03)
+
+
+def test_paper_and_blade_of_a_gif_have_their_colors_in_all_pictures(tmp_path):
+    style = LeafStyle()
+    with Image.open(animate(Recording(), tmp_path / "leaf.gif", film=SHORT)) as film:
+        for number in range(3):
+            film.seek(number)
+            colors = film.convert("RGB").getcolors(1 << 24)
+            common = {"#{:02x}{:02x}{:02x}".format(*color) for _, color in sorted(colors)[-2:]}
+            assert common == {style.background, style.blade}
 
 
 @pytest.mark.parametrize("suffix", [".gif", ".mp4"])

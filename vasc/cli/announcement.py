@@ -72,7 +72,8 @@ def _description(experiment: Experiment) -> str:
     """Give the kind of an experiment in words."""
     growth = getattr(experiment.parameters, "growth", None)
     if growth is not None:
-        return f"{experiment.kind} venation, {growth.kind} growth"
+        how = "no" if growth.kind == "none" else growth.kind.replace("_", "-")
+        return f"{experiment.kind} venation, {how} growth"
     if experiment.kind == "stem":
         return "stem vasculature"
     transport = getattr(experiment.parameters, "transport", None)

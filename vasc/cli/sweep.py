@@ -172,7 +172,8 @@ def _print_plan(loaded: "Sweep", n_there: int, found: "Estimate") -> None:
             f"run {found.number:,}, expected to be largest": f"{duration(found.run_seconds)},"
             f" {file_size(found.run_bytes)}",
             "all that is missing": f"about {duration(found.seconds)} with {found.n_workers}"
-            f" workers, {file_size(found.bytes)}, if all are like run {found.number:,}",
+            f" worker{'s' if found.n_workers > 1 else ''}, {file_size(found.bytes)},"
+            f" if all are like run {found.number:,}",
         }
     )
 

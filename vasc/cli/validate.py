@@ -186,10 +186,10 @@ def _print_stem(suite: dict) -> None:
     rows = [
         (
             check["name"],
-            "pass" if check["pass"] else "FAIL",
+            _stem_verdict(check),
             ",".join(map(str, check["pair"])),
             f"{check['value']:.2f}",
-            f"{check['low']:.2f}" if check["tie"] is None else "tied",
+            f"{check['low']:.2f}" if check["tie"] is None else "by the rule of the tie",
         )
         for check in suite["checks"]
     ]
@@ -197,6 +197,13 @@ def _print_stem(suite: dict) -> None:
     for check in suite["checks"]:
         if check["tie"] is not None:
             typer.echo(f"{check['name']}: {check['tie']}")
+
+
+def _stem_verdict(check: dict) -> str:
+    """Say how a stem turned out; a tie leaves some of its links undecided, and is no pass."""
+    if not check["pass"]:
+        return "FAIL"
+    return "pass" if check["tie"] is None else "tied"
 
 
 def _print_growth(suite: dict) -> None:

@@ -10,19 +10,41 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from vasc.models.leaf import LeafVenation
 
+PLAIN_LEAF = "in an ovate leaf of closed veins"
+"""What the patterns below are of: lobes, rows of seeds and open veins bring their own."""
+
 MARGINAL_CLASSES = (
-    (1.0, "the tips of veins keep up with the margin: pinnate, with secondaries to the margin"),
-    (4.0, "a smooth midvein, arched secondaries and ladder-like tertiaries behind the margin"),
-    (6.0, "between a leaf with a midvein and a fan: the margin begins to outrun the veins"),
-    (math.inf, "the margin outruns the veins: a fan from the petiole, as without growth"),
+    (1.0, f"tips keep up with the margin; {PLAIN_LEAF}: pinnate, with secondaries to the margin"),
+    (
+        4.0,
+        f"tips follow the margin; {PLAIN_LEAF}: a smooth midvein, arched secondaries and"
+        " ladder-like tertiaries",
+    ),
+    (
+        6.0,
+        f"the margin begins to outrun the veins; {PLAIN_LEAF}: between a midvein with"
+        " secondaries and a fan",
+    ),
+    (math.inf, f"the margin outruns the veins; {PLAIN_LEAF}: a fan, as without growth"),
 )
 """Pattern of a marginally growing leaf by v, each up to the number before it."""
 
 ISOGONIC_CLASSES = (
-    (0.1, "growth outruns the veins: a fan from the petiole"),
-    (0.3, "between a fan and a leaf with a midvein"),
-    (1.5, "a midvein, secondaries and a fine reticulation"),
-    (math.inf, "veins cross the blade many times while it grows: no hierarchy of large veins"),
+    (0.1, f"growth outruns the veins; {PLAIN_LEAF}: a fan"),
+    (
+        0.3,
+        f"growth is about to outrun the veins; {PLAIN_LEAF}: between a midvein with"
+        " secondaries and a fan",
+    ),
+    (
+        1.5,
+        f"veins follow growth; {PLAIN_LEAF}: a midvein, secondaries and a fine reticulation",
+    ),
+    (
+        math.inf,
+        f"veins cross the blade many times while it grows; {PLAIN_LEAF}: no hierarchy of"
+        " large veins",
+    ),
 )
 """Pattern of an isogonically growing leaf by T, each up to the number before it."""
 
@@ -92,7 +114,7 @@ def regime(parameters: "LeafVenation") -> Regime:
     elif growth.kind == "isogonic":
         _isogonic(crossing(parameters), found)
     elif growth.kind == "none":
-        found.sentences.append("no growth: veins fan out from the petiole toward all sources")
+        found.sentences.append("no growth: veins run from their seeds toward all sources at once")
     placement: Any = getattr(parameters, "placement", None)
     if placement is not None and placement.kind == "darts":
         _darts(placement.density * placement.birth_distance_sources**2, found)
@@ -114,9 +136,9 @@ def _marginal(speed: float, found: Regime) -> None:
         f"v = {speed:.3g} (margin speed over vein speed): {_class_of(speed, MARGINAL_CLASSES)}"
     )
     low, high = MARGINAL_RANGE
-    if speed > high:
+    if speed >= high:
         found.warnings.append(
-            f"v = {speed:.3g} is above {high:g}: expect a fan;"
+            f"v = {speed:.3g} is not below {high:g}: expect a fan;"
             " lower growth.length_per_step for a hierarchy of veins"
         )
     elif speed < low:

@@ -69,11 +69,12 @@ def check_folder(folder: Path, is_part: Callable[[Path], bool], *, force: bool) 
         return
     if not folder.is_dir():
         raise OutputError(f"{folder}: exists already, and a folder of that name is to be written")
-    if not force:
-        raise OutputError(f"{folder}: the folder exists already; use --force to replace it")
     for path in sorted(folder.rglob("*")):
         if not is_part(path):
             other = path.relative_to(folder).as_posix()
             raise OutputError(
-                f"{folder}: the folder holds {other!r}, which is no part of an export; not replaced"
+                f"{folder}: the folder exists already and holds {other!r}, which is no part of an"
+                " export; not replaced, choose another name"
             )
+    if not force:
+        raise OutputError(f"{folder}: the folder exists already; use --force to replace it")

@@ -16,7 +16,7 @@ from vasc.errors import OutputError, VascError, writing
 from vasc.render.files import node_widths, open_run
 from vasc.render.leaf import draw_leaf, fitted_widths, narrowest_of, view_of
 from vasc.render.saving import checked_output
-from vasc.render.styles import DPI, SOURCE_STATE_COLORS, TISSUE_COLOR_CHOICES, LeafStyle
+from vasc.render.styles import DPI, INK, SOURCE_STATE_COLORS, TISSUE_COLOR_CHOICES, LeafStyle
 from vasc.render.tissue_files import chosen_color, tissue_figures
 from vasc.render.tissue_style import TissueStyle
 
@@ -29,7 +29,18 @@ if TYPE_CHECKING:
 FILM_SUFFIXES = (".mp4", ".gif")
 N_COLORS = 128
 """Colours of a gif, besides those of marks."""
-MARKS = (TissueStyle.source, TissueStyle.sink, TissueStyle.arrow, *SOURCE_STATE_COLORS.values())
+MARKS = (
+    INK,
+    LeafStyle.background,
+    LeafStyle.blade,
+    TissueStyle.source,
+    TissueStyle.sink,
+    TissueStyle.arrow,
+    *SOURCE_STATE_COLORS.values(),
+)
+"""Colours that a gif has as they are: of text, paper and blade, and of small marks."""
+N_SAMPLES = 12
+"""Pictures of a film from which the colours of all are taken."""
 Pixels = NDArray[np.uint8]
 """A picture, shape (height, width, 3)."""
 
@@ -251,7 +262,13 @@ def _write_gif(pictures: Iterator[Pixels], output: Path, film: Film) -> None:
     """Write pictures as a gif that repeats."""
     from PIL import Image
 
-    small = [_with_palette(Image.fromarray(picture)) for picture in pictures]
+    # a byte a pixel at once: all pictures are there before the colours of all are known
+    small = [_reduced(image, _colors_of(image)) for image in map(Image.fromarray, pictures)]
+    chosen = np.unique(np.linspace(0, len(small) - 1, N_SAMPLES).round().astype(int)).tolist()
+    sample = np.concatenate([np.asarray(small[row].convert("RGB")) for row in chosen])
+    # one palette, or colours would change from picture to picture
+    colors = _colors_of(Image.fromarray(sample))
+    small = [_reduced(picture.convert("RGB"), colors) for picture in small]
     pause = 1000 // film.pictures_per_second
     pauses = [pause] * (len(small) - 1) + [pause + round(1000 * film.rest)]
     unfinished = output.with_name(f".{output.stem}.unfinished.gif")
@@ -262,13 +279,23 @@ def _write_gif(pictures: Iterator[Pixels], output: Path, film: Film) -> None:
         unfinished.unlink(missing_ok=True)
 
 
-def _with_palette(picture: Picture) -> Picture:
-    """Reduce a picture to the colours of a gif; those of small marks are kept as they are."""
+def _colors_of(picture: Picture) -> list[int]:
+    """Choose the colours of a gif for a picture, as a palette: those of marks, and others."""
     from PIL import Image
 
     chosen = picture.quantize(N_COLORS, dither=Image.Dither.NONE)
     # where there are many shades of another colour, few pixels of a mark get none of their own
     marks = [channel for color in MARKS for channel in bytes.fromhex(color[1:])]
-    palette = Image.new("P", (1, 1))
-    palette.putpalette([*(chosen.getpalette() or [])[: 3 * N_COLORS], *marks])
-    return picture.quantize(palette=palette, dither=Image.Dither.NONE)
+    return [*marks, *(chosen.getpalette() or [])[: 3 * N_COLORS]]
+
+
+def _reduced(picture: Picture, colors: list[int]) -> Picture:
+    """Give a picture in those of the colours that are nearest to its own."""
+    from PIL import Image
+
+    # Pillow looks for colours in steps of four, from below: white would become a light gray
+    coarse = Image.new("P", (1, 1))
+    coarse.putpalette([channel & ~3 for channel in colors])
+    found = picture.quantize(palette=coarse, dither=Image.Dither.NONE)
+    found.putpalette(colors)
+    return found

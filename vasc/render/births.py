@@ -118,7 +118,11 @@ def _draw_extent(
     axes: Axes, timeline: Timeline, last: int, unit: LengthUnit, style: LeafStyle
 ) -> None:
     """Fill what the blade reaches at each step; a stem, up to its highest node."""
-    steps = np.unique(np.linspace(0, last, N_OUTLINES).round().astype(np.int64))
+    events = timeline.events
+    # where growth ends the outline has a corner
+    ends = events["step"][events["kind"] == EventKind.GROWTH_ENDED]
+    evenly = np.linspace(0, last, N_OUTLINES).round().astype(np.int64)
+    steps = np.union1d(evenly, ends[ends <= last])
     low, high = np.zeros(len(steps)), np.zeros(len(steps))
     if timeline.dimensions == 3:
         heights = timeline.table("nodes", "material")[:, 2]

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from vasc.analysis.run_widths import widths_of
 from vasc.arrays import Points
 from vasc.errors import VascError
+from vasc.render.files import node_widths
 from vasc.render.leaf import draw_leaf, view_of
 from vasc.render.styles import INK, SOURCE_COLORS, TEXT_SIZE, LeafStyle
 
@@ -98,7 +100,16 @@ def draw_genealogy(timeline: Timeline, step: int = -1, *, style: LeafStyle | Non
     figure = Figure(figsize=(width + 1e-6, height + 1e-6), facecolor=style.background)
     FigureCanvasAgg(figure)
     blade = figure.add_axes((0.0, 0.0, view.inches[0] / width, view.inches[1] / height))
-    draw_leaf(frame, blade, units=timeline.units, style=style, view=view)
+    asked = widths_of(timeline.config)
+    draw_leaf(
+        frame,
+        blade,
+        widths=asked,
+        node_widths=node_widths(timeline, asked, [frame.step]).get(frame.step),
+        units=timeline.units,
+        style=style,
+        view=view,
+    )
     _fill(blade, shown, frame.positions)
     left = (view.inches[0] + LEFT) / width
     trees = figure.add_axes(

@@ -87,13 +87,13 @@ _PICTURES: dict[int, tuple[str, tuple[Panel, ...]]] = {
     8: (
         "vein density and areoles",
         (
-            _values(8, "vein density x root of mean areole area", "density_x_sqrt_areole"),
+            _values(8, "enclosed vein density x root of mean areole area", "density_x_sqrt_areole"),
             _shares("length"),
         ),
     ),
     9: (
         "distance to vein",
-        (_shares("distance"), _values(9, "vein density x mean distance to vein")),
+        (_shares("distance"), _values(9, "enclosed vein density x mean distance to vein")),
     ),
     10: ("free ends", (Panel(draw_ends),)),
     11: ("spanning tree", (_values(11, "spanning tree over all veins, closed", "mst_ratio"),)),

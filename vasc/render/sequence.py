@@ -111,6 +111,8 @@ def _write_events(
     """Mark the events of one observation."""
     from matplotlib.patheffects import withStroke
 
+    if not found:
+        axes.text(0.0, top + 1.0, "no single event", size=TEXT_SIZE, color=PALE, va="center")
     for line, (name, event) in enumerate(found):
         y = top + line + 1.0
         title = name.replace("_", " ")

@@ -77,7 +77,7 @@ def draw_curves(folder: SweepFolder) -> "Figure | None":
         _draw_panel(panel, sweep, runs, values, keys)
         panel.set_ylabel(name, size=TEXT_SIZE)
     if len(sweep["axes"]) > 1:
-        _explain(panels[0], keys[1])
+        _explain(figure, panels[0], keys[1])
     for panel in panels[len(measures) :]:
         panel.set_axis_off()
     if title:
@@ -162,10 +162,17 @@ def _finish(panel: "Axes", first: str, labels: dict[float, str], scale: str) -> 
         panel.set_xscale("log")
 
 
-def _explain(panel: "Axes", key: str) -> None:
-    """Write what the colours are."""
+def _explain(figure: "Figure", panel: "Axes", key: str) -> None:
+    """Write what the colours are, beside the panels, where it covers no point."""
     size = TEXT_SIZE - 1.0
-    panel.legend(title=key, fontsize=size, title_fontsize=size, frameon=False)
+    figure.legend(
+        *panel.get_legend_handles_labels(),
+        title=key,
+        loc="outside right upper",
+        fontsize=size,
+        title_fontsize=size,
+        frameon=False,
+    )
 
 
 def _places(values: list[Any]) -> tuple[dict[str, float], dict[float, str]]:

@@ -103,11 +103,11 @@ _RANGES = (
         (DALBERGIA, SPECIES), "0.57 in Dalbergia, 0.65 to 1.5 in most of 45 species",
     ),
     LeafRange(
-        "density_x_sqrt_areole", 8, "vein density x root of mean areole area", 1.9, 2.6,
+        "density_x_sqrt_areole", 8, "enclosed vein density x root of mean areole area", 1.9, 2.6,
         (DALBERGIA, SPECIES), "2.20 in Dalbergia, quartiles 1.80 and 2.52 of 45 species",
     ),
     LeafRange(
-        "density_x_distance", 9, "vein density x mean distance to vein", 0.30, 0.45,
+        "density_x_distance", 9, "enclosed vein density x mean distance to vein", 0.30, 0.45,
         (DALBERGIA,), "0.362 in Dalbergia",
     ),
     LeafRange(
