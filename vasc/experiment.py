@@ -19,6 +19,7 @@ from vasc.simulation import Observer, simulate
 from vasc.state import State
 from vasc.streams import Streams
 from vasc.timeline import Recorder, Timeline, motion_of
+from vasc.timeline.checksums import check_header
 from vasc.timeline.comparison import (
     FRAME_COLUMNS,
     Difference,
@@ -211,7 +212,9 @@ def verify(path: str | Path, *, observers: Iterable[Observer] = ()) -> list[Diff
         If this version cannot read its config.
     """
     with Timeline(path) as timeline:
-        # what was changed is shown, where checksums would only refuse it
+        # model, growth and units are no result: that they are as recorded, checksums alone tell
+        check_header(timeline.path, timeline.opened.file, timeline.opened.found)
+        # what else was changed is shown, where checksums would only refuse it
         timeline.opened.trust()
         if not timeline.n_frames:
             raise TimelineError(f"{path}: holds no step to compare")

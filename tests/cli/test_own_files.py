@@ -1,5 +1,7 @@
 """The files that a config refers to are never written over, even with --force."""
 
+import os
+
 import pytest
 
 from vasc.cli import main
@@ -58,6 +60,27 @@ def test_a_file_that_the_config_refers_to_is_refused(drawn, capsys, arguments, h
     assert hint in said
     assert said.count("\n") == 1
     assert {path: path.read_bytes() for path in drawn.rglob("*") if path.is_file()} == before
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["run", "scan.toml", "--steps", "2", "--no-figure", "-o"],
+        ["run", "scan.toml", "--steps", "2", "-o", "other.h5", "--figure"],
+        ["render", "scan.h5", "-o"],
+        ["animate", "scan.h5", "-o"],
+        ["export", "scan.h5", "-o"],
+    ],
+)
+def test_what_is_no_file_is_not_replaced_by_one(drawn, capsys, arguments):
+    suffix = {"run": ".png", "export": ".wkt", "animate": ".gif"}.get(arguments[0], ".svg")
+    for name, make in (("pipe", os.mkfifo), ("link", lambda path: path.symlink_to("nothing"))):
+        path = drawn / f"{name}{suffix}"
+        make(path)
+        before = path.lstat()
+        assert main([*arguments, path.name, "--force"]) == 2
+        assert "is a device, a pipe or a link to nothing" in capsys.readouterr().err
+        assert path.lstat() == before
 
 
 def test_resume_does_not_draw_over_it(drawn, capsys):

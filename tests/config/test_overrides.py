@@ -28,7 +28,9 @@ def test_a_value_is_toml_or_else_a_text(text, keys, value):
     assert parse_override(text) == (keys, value)
 
 
-@pytest.mark.parametrize("text", ["seed", "=2", ".seed=2", "a b=2", "a..b=2", "[a]=2", "a\nb=2"])
+@pytest.mark.parametrize(
+    "text", ["seed", "=2", ".seed=2", "a b=2", "a..b=2", "[a]=2", "a\nb=2", "title=\udcff"]
+)
 def test_what_is_no_key_is_refused(text):
     with pytest.raises(ConfigError, match="--set"):
         parse_override(text)

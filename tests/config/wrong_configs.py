@@ -375,6 +375,11 @@ WRONG = WRONG_TISSUES | {
     ),
     "unknown record": (config(record='perceived = "some"'), 'record.perceived = "some"', '"veins"'),
     "wide exponent": (config(widths="exponent = 50"), "widths.exponent = 50", "at most 20"),
+    "unit beyond floats": (
+        config(units="segment = 1e160"),
+        "units.segment = 1e+160",
+        "at least 1e-12 and of at most 1e+12",
+    ),
     "empty unit": (config(units='length = ""'), 'units.length = ""', "not empty"),
     # rules between keys
     "kill distance below a segment": (

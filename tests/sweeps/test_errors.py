@@ -105,3 +105,11 @@ def test_what_is_no_folder_of_a_sweep_is_left_alone(make, part, here, capsys):
     assert main(["sweep", "small.toml", "-o", "out"]) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert part in line
+
+
+def test_a_scheduler_that_is_not_there_is_told_before_all_else(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    write(tmp_path, FAILING)
+    assert main(["sweep", "small.toml", "-o", "out", "--scheduler", "nowhere://x"]) == 2
+    assert "--scheduler" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()

@@ -92,6 +92,27 @@ def test_a_timeline_that_was_overwritten_is_made_again_and_one_removed_is_not(he
     assert not (runs / "0002.h5").exists()
 
 
+def test_a_result_that_no_sweep_has_written_is_made_again(here, short, capsys):
+    shutil.copytree(short, "out")
+    runs = here / "out" / "runs"
+
+    def change(number, **keys):
+        path = runs / f"{number:04d}.json"
+        path.write_text(json.dumps(json.loads(path.read_text()) | keys))
+
+    measures = json.loads((runs / "0004.json").read_text())["measures"]
+    name = next(iter(measures))
+    change(1, measures=3)
+    change(2, status="weird")
+    change(3, measures=measures | {name: float("nan")})
+    change(4, measures={})
+    change(5, measures=measures | {name: {"x": 1}})
+    change(6, error=None)
+    assert main(["sweep", "small.toml", "-o", "out"]) == 0
+    assert "2 of them before" in capsys.readouterr().out
+    assert table(here / "out") == table(short)
+
+
 def test_a_worker_that_is_killed_loses_its_own_run_alone(tmp_path, long):
     sweep = start(write(tmp_path, LONG).parent, "sweep", "small.toml", "-o", "out", "--workers=2")
     wait_until(lambda: is_under_way(tmp_path / "out", 1))

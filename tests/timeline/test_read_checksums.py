@@ -9,7 +9,7 @@ from timeline.synthetic import record, resume
 
 from vasc.cli.program import main
 from vasc.errors import TimelineError
-from vasc.timeline import Recorder, Timeline, guard
+from vasc.timeline import Recorder, Timeline, guard, validate
 from vasc.timeline.redo import log_of, settle
 
 READERS = {
@@ -64,6 +64,70 @@ def test_no_number_is_told_of_a_changed_run(path, verb, monkeypatch, capsys):
     assert (out, err.count("\n")) == ("", 1)
     assert "is not what was recorded" in err
     assert [file.name for file in path.parent.iterdir()] == ["run.h5"]
+
+
+def changed_units(file):
+    file["units"].attrs["segment"] = -2.0
+
+
+def fewer_steps(file):
+    file["committed"][0] = 3
+
+
+def other_model(file):
+    file.attrs["model"] = "of another"
+
+
+@pytest.mark.parametrize(
+    ("change", "name"),
+    [(changed_units, "attributes"), (other_model, "attributes"), (fewer_steps, "committed")],
+)
+def test_attributes_and_the_count_of_steps_are_those_that_were_noted(path, change, name):
+    with h5py.File(path, "r+") as file:
+        file.attrs["of others"] = "a remark"
+    with Timeline(path) as timeline:
+        assert timeline.is_complete
+        assert timeline.units["length"] == "um"
+    with h5py.File(path, "r+") as file:
+        change(file)
+    for ask in (lambda timeline: timeline.units, lambda timeline: timeline.is_complete):
+        said = f"{name} is not what was recorded"
+        with Timeline(path) as timeline, pytest.raises(TimelineError, match=said):
+            ask(timeline)
+
+
+def test_a_stopped_run_that_is_marked_complete_is_refused(tmp_path):
+    path = tmp_path / "run.h5"
+    record(path, 30, stop_after=20)
+    with h5py.File(path, "r+") as file:
+        file["complete"][0] = 1
+    with Timeline(path) as timeline, pytest.raises(TimelineError, match="complete is not what"):
+        _ = timeline.is_complete
+    assert any("complete is not what was recorded" in finding for finding in validate(path))
+
+
+def test_a_run_that_ends_while_it_is_read_is_no_damage(tmp_path):
+    path, seen = tmp_path / "run.h5", []
+
+    def look(step):
+        if step == 20:
+            seen.append(Timeline(path))
+
+    record(path, 30, watch=look)
+    (timeline,) = seen
+    with timeline:
+        assert timeline.n_frames <= 21
+        assert not timeline.is_complete
+        assert timeline.model
+
+
+@pytest.mark.parametrize("value", [0.0, -2.0, np.nan, np.inf, "two"])
+def test_units_without_checksums_are_numbers_above_0(path, value):
+    with h5py.File(path, "r+") as file:
+        file["provenance/records"].resize(1, axis=0)
+        file["units"].attrs["segment"] = value
+    with Timeline(path) as timeline, pytest.raises(TimelineError, match="units: segment is"):
+        _ = timeline.units
 
 
 def test_a_run_that_went_on_is_compared_with_its_last_session(path):

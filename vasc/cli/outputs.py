@@ -59,8 +59,10 @@ def check_file(path: Path, *, force: bool) -> None:
         If it cannot be written.
     """
     from vasc.errors import OutputError
+    from vasc.whole_files import refuse_special
 
     check_folder(path)
+    refuse_special(path)
     if path.is_dir():
         raise OutputError(f"{path}: is a folder")
     if path.exists() and not force:

@@ -28,7 +28,7 @@ def parse_override(text: str) -> Override:
     Raises
     ------
     ConfigError
-        If there is no equals sign, or what is before it is not a TOML key.
+        If there is no equals sign, what is before it is not a TOML key, or it is no text.
 
     Examples
     --------
@@ -42,6 +42,10 @@ def parse_override(text: str) -> Override:
         raise ConfigError(
             f"--set {shortened(text)}: must be KEY=VALUE, as in growth.final_length=2000"
         )
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        raise ConfigError(f"--set {shortened(text)!a}: is not a text in UTF-8") from error
     return _keys(key.strip(), text), _value(value.strip())
 
 

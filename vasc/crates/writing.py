@@ -86,7 +86,7 @@ def export_crate(
     _check_words(authors, license)
     with Timeline(run) as timeline:
         timeline.frame(step)
-    listed = _listed(output) if force else set()
+    listed = _listed(output)
     check_folder(output, lambda path: _is_part(path.relative_to(output), path, listed), force=force)
     with new_folder(output) as folder:
         shutil.copyfile(run, folder / TIMELINE)

@@ -46,7 +46,7 @@ def rings_of_image(content: bytes) -> list[Points]:
         is not installed.
     """
     try:
-        from PIL import Image
+        from PIL import Image, UnidentifiedImageError
         from skimage import filters, measure
     except ImportError as error:
         raise OutlineError(
@@ -59,6 +59,8 @@ def rings_of_image(content: bytes) -> list[Points]:
                 grey, is_mask = _grey(_of_allowed_size(image))
         except OutlineError:
             raise
+        except UnidentifiedImageError as error:
+            raise OutlineError("outline: not a PNG, TIFF or JPEG image") from error
         # a damaged file may make the decoder raise nearly anything
         except Exception as error:
             reason = " ".join(str(error).split())[:LONGEST_REASON]

@@ -131,13 +131,17 @@ Outline = tuple[list[Points], bool]
 """Rings, and whether y points down."""
 
 
+FIRST, SECOND = ("x", "lon"), ("y", "lat")
+"""How names of columns begin that hold the first and the second coordinate."""
+
+
 def read_csv(content: bytes) -> Outline:
     """Read corners, one a line: x, y and perhaps the name of the ring; a header is skipped.
 
     Raises
     ------
     OutlineError
-        If a line is not two numbers.
+        If a line is not two numbers, or a header says that the first is not x.
     """
     rings: dict[str, list[tuple[float, float]]] = {}
     n_points = 0
@@ -146,6 +150,7 @@ def read_csv(content: bytes) -> Outline:
             x, y = float(row[0]), float(row[1])
         except (ValueError, IndexError) as error:
             if number == 1 and not any(_is_number(cell) for cell in row):
+                _check_header(row)
                 continue
             said = ", ".join(row)[:60]
             raise OutlineError(f"outline: line {number} is '{said}'; it must be x, y") from error
@@ -158,6 +163,14 @@ def read_csv(content: bytes) -> Outline:
         for points in rings.values()
     ]
     return [np.array(points, dtype=np.float64) for points in closed], False
+
+
+def _check_header(row: list[str]) -> None:
+    """Refuse a header that begins with the second coordinate: it would be read as the first."""
+    names = [cell.strip().lower() for cell in row[:2]]
+    if names[:1] and (names[0].startswith(SECOND) or names[-1].startswith(FIRST)):
+        said = ", ".join(row)[:60]
+        raise OutlineError(f"outline: the header is '{said}'; the columns must be x, y")
 
 
 def _is_number(cell: str) -> bool:

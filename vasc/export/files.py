@@ -20,6 +20,7 @@ from vasc.export.words import as_bytes
 from vasc.timeline import Timeline
 from vasc.timeline.stems import is_stem, recorded_stem
 from vasc.timeline.storage import beside, publish
+from vasc.whole_files import refuse_special
 
 DOCUMENTS: dict[str, Callable[[Specimen], bytes]] = {
     ".graphml": graphml,
@@ -117,6 +118,7 @@ def check_output(output: Path, *, force: bool = False) -> None:
         names = FOLDERS[suffix]
         check_folder(output, lambda path: path.is_file() and path.name in names, force=force)
         return
+    refuse_special(output)
     if output.is_dir():
         raise OutputError(f"{output}: is a folder")
     if output.exists() and not force:

@@ -93,13 +93,17 @@ class RecordParameters(Parameters):
         }[self.perceived]
 
 
+LEAST_UNIT, MOST_UNIT = 1e-12, 1e12
+"""Range of a length or time of the model in real units: areas stay far from the ends of floats."""
+
+
 class UnitParameters(Parameters):
     """Real units, if the config's D and step stand for some."""
 
     length: str = quantity("Unit of length, for example 'um'.", default="um", min_length=1)
-    segment: float = quantity("One D in that unit.", default=1.0, gt=0.0)
+    segment: float = quantity("One D in that unit.", default=1.0, ge=LEAST_UNIT, le=MOST_UNIT)
     time: str = quantity("Unit of time, for example 'h'.", default="step", min_length=1)
-    step: float = quantity("One step in that unit.", default=1.0, gt=0.0)
+    step: float = quantity("One step in that unit.", default=1.0, ge=LEAST_UNIT, le=MOST_UNIT)
 
 
 class PrintedParameters(Parameters):

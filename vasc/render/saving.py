@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from vasc.errors import OutputError, writing
 from vasc.render.styles import DPI
-from vasc.whole_files import write_whole
+from vasc.whole_files import refuse_special, write_whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -83,4 +83,5 @@ def checked_output(output: str | Path, suffixes: Sequence[str]) -> Path:
         raise OutputError(f"{path}: suffix {path.suffix!r} is not one of {', '.join(suffixes)}")
     if not path.parent.is_dir():
         raise OutputError(f"{path}: folder {path.parent} does not exist")
+    refuse_special(path)
     return path

@@ -158,6 +158,9 @@ def run_sweep(
         If there is nobody left who could work.
     """
     folder = SweepFolder(Path(output))
+    folder.check(sweep.description())
+    # a scheduler that cannot be reached is told before a folder is made
+    crew = workforce() if begun(sweep, folder, retry=retry)[1] else None
     folder.begin(sweep.description())
     with folder.locked():
         progress, missing = begun(sweep, folder, retry=retry)
@@ -165,7 +168,7 @@ def run_sweep(
             folder.result_file(number).unlink(missing_ok=True)
         try:
             if missing:
-                with workforce() as workers:
+                with crew or workforce() as workers:
                     workers.start(folder, missing)
                     _follow(workers, progress, watcher, should_stop)
         finally:

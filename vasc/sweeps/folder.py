@@ -104,12 +104,14 @@ class SweepFolder:
         return [PlannedRun(**run) for run in self.description()["runs"]]
 
     def result(self, number: int) -> dict[str, Any] | None:
-        """Give the result of a run, None if there is none yet."""
+        """Give the result of a run, None if there is none yet, or none that a sweep has written."""
         try:
-            found = json.loads(self.result_file(number).read_text(encoding="utf-8"))
-        except (OSError, ValueError):
+            text = self.result_file(number).read_text(encoding="utf-8")
+            found = json.loads(text, parse_constant=_no_number)
+        except (OSError, ValueError, RecursionError):
             return None
-        return found if isinstance(found, dict) and found.get("number") == number else None
+        measures = self.description()["sweep"]["measures"]
+        return found if _is_result(found, number, measures) else None
 
     def is_replaced(self, number: int, result: dict[str, Any]) -> bool:
         """Tell whether what stands in the place of a timeline is not what was measured.
@@ -168,6 +170,35 @@ class SweepFolder:
         raise OutputError(
             f"{self.path}: belongs to another sweep, {old.get('name')}: {what}; choose a new folder"
         )
+
+
+def _no_number(name: str) -> None:
+    """Refuse what JSON does not know: a sweep writes no nan."""
+    raise ValueError(f"{name} is no number")
+
+
+def _is_result(found: Any, number: int, measures: list[str]) -> bool:
+    """Tell whether this is the result of a run: done with all measures, or failed with an error."""
+    if not isinstance(found, dict) or found.get("number") != number:
+        return False
+    values, error = found.get("measures"), found.get("error")
+    if not isinstance(values, dict) or not isinstance(error, str):
+        return False
+    if not all(_is_measure(value) for value in values.values()):
+        return False
+    is_whole = not error and values.keys() == set(measures)
+    return (
+        is_whole
+        if found.get("status") == "done"
+        else found.get("status") == "failed" and bool(error)
+    )
+
+
+def _is_measure(value: Any) -> bool:
+    """Tell whether this can be the value of a measure."""
+    if isinstance(value, list):
+        return all(isinstance(item, int | float | str) for item in value)
+    return value is None or isinstance(value, int | float | str)
 
 
 def as_text(value: Any) -> str:

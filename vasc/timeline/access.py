@@ -44,6 +44,7 @@ class OpenFile:
         self._datasets: dict[str, h5py.Dataset] = {}
         # rows and checksums of what is recorded, once something is read as a whole
         self._noted: dict[str, tuple[int, int]] | None = None
+        self._is_checked = False
 
     def close(self) -> None:
         """Close the file; closing twice is fine."""
@@ -52,7 +53,7 @@ class OpenFile:
 
     def trust(self) -> None:
         """Compare nothing with its checksum: for those who tell by other means what is wrong."""
-        self._noted = {}
+        self._noted, self._is_checked = {}, True
 
     def read(self, name: str, start: int, stop: int, out: NDArray | None = None) -> NDArray:
         """Read rows of a growing column, into ``out`` if given.
@@ -117,10 +118,32 @@ class OpenFile:
         Raises
         ------
         TimelineError
-            If it is missing, damaged or reached by a link.
+            If it is missing, damaged, reached by a link, or attributes are not what was recorded.
         """
         with self.readable(name):
-            return guard.open_item(self.path, self.file, name)
+            item = guard.open_item(self.path, self.file, name)
+        self.check()
+        return item
+
+    def check(self) -> None:
+        """Make sure, once, that attributes and marks are what the last session has left.
+
+        Raises
+        ------
+        TimelineError
+            If they are not.
+        """
+        if self._is_checked:
+            return
+        with contextlib.suppress(*guard.TRANSIENT):
+            try:
+                checksums.check_session(self.path, self.file, self.found)
+            except TimelineError:
+                # a run may have gone on, and come to its end, since the file was opened
+                file, found = _open(self.path)
+                with file:
+                    checksums.check_session(self.path, file, found)
+        self._is_checked = True
 
     @contextlib.contextmanager
     def readable(self, name: str) -> Iterator[None]:
@@ -141,7 +164,6 @@ class OpenFile:
         """Give rows and checksum of a part of the file as noted; -1 rows if they were not."""
         if self._noted is None:
             self._noted = {}
-            # a run that is still being written has noted nothing of its last steps
             with contextlib.suppress(*guard.TRANSIENT):
                 self._noted = checksums.noted(self.path, self.file, self.found)
         return self._noted.get(name, (-1, 0))

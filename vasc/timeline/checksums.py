@@ -64,12 +64,7 @@ def of_fixed(path: Path, file: h5py.File, found: Found) -> dict[str, int]:
     sums = {}
     for name in (*TEXTS, *layout.static_columns(found.dimensions, found.has_tissue)):
         sums[name] = of_value(guard.open_dataset(path, file, name)[()])
-    total = 0
-    for item in (file, guard.open_item(path, file, layout.UNITS)):
-        for name in sorted(item.attrs):
-            total = zlib.crc32(name.encode(), total)
-            total = of_value(item.attrs[name], total)
-    return sums | {ATTRIBUTES: total}
+    return sums | {ATTRIBUTES: of_header(path, file)}
 
 
 def written(sums: Mapping[str, int]) -> dict[str, str]:
@@ -93,6 +88,77 @@ def noted(path: Path, file: h5py.File, found: Found) -> dict[str, tuple[int, int
         for name, total in (sums.items() if isinstance(sums, Mapping) else ())
         if isinstance(total, str) and HEXADECIMAL.fullmatch(total)
     }
+
+
+def of_header(path: Path, file: h5py.File) -> int:
+    """Give the CRC-32 of the attributes of the file and of its units; others may add their own.
+
+    Raises
+    ------
+    TimelineError
+        If the units are missing.
+    """
+    total = 0
+    for item, known in (
+        (file, layout.HEADER),
+        (guard.open_item(path, file, layout.UNITS), layout.UNIT_NAMES),
+    ):
+        for name in sorted(known & item.attrs.keys()):
+            total = zlib.crc32(name.encode(), total)
+            total = of_value(item.attrs[name], total)
+    return total
+
+
+def check_session(path: Path, file: h5py.File, found: Found) -> None:
+    """Hold attributes and marks against what the sessions have noted.
+
+    Raises
+    ------
+    TimelineError
+        If they differ.
+    """
+    check_header(path, file, found)
+    check_marks(path, file, found)
+
+
+def check_header(path: Path, file: h5py.File, found: Found) -> None:
+    """Hold the attributes of the file and of its units against what a session has noted.
+
+    Those of a newer version are not all known here, and are not compared.
+
+    Raises
+    ------
+    TimelineError
+        If they differ.
+    """
+    if found.version > layout.VERSION:
+        return
+    for one in sessions(read_records(path, file))[::-1]:
+        if isinstance(one.get("checksums"), Mapping):
+            expected = one["checksums"].get(ATTRIBUTES)
+            if expected is not None and expected != f"{of_header(path, file):08x}":
+                raise not_as_recorded(path, ATTRIBUTES)
+            return
+
+
+def check_marks(path: Path, file: h5py.File, found: Found) -> None:
+    """Hold the two marks, how many steps there are and whether the run ended, against provenance.
+
+    Raises
+    ------
+    TimelineError
+        If a session that came to its end has noted more steps, or of all steps that the run
+        had not ended.
+    """
+    known = sessions(read_records(path, file))
+    steps = [one["last_step"] for one in known if isinstance(one.get("last_step"), int)]
+    if max(steps, default=-1) >= found.n_frames:
+        raise not_as_recorded(path, layout.COMMITTED)
+    last = known[-1] if known else {}
+    is_noted = "ended" in last and last.get("last_step") == found.n_frames - 1
+    # the mark is set after the record: a run may be killed between them, and is not complete
+    if is_noted and found.is_complete and last.get("outcome") != "complete":
+        raise not_as_recorded(path, layout.COMPLETE)
 
 
 def damaged(

@@ -6,6 +6,7 @@ layout are opened, component by component, and only plain data are accepted.
 """
 
 import contextlib
+import math
 import os
 import time
 from pathlib import Path
@@ -153,6 +154,22 @@ def attribute(item: h5py.HLObject, name: str) -> Any:
     if isinstance(value, bytes):
         return value.decode(errors="replace")
     return value.item() if isinstance(value, np.generic) else value
+
+
+def units(path: Path, group: h5py.Group) -> dict[str, str | float]:
+    """Give what a length and a time mean.
+
+    Raises
+    ------
+    TimelineError
+        If a segment or a step is no number above 0 of its unit.
+    """
+    found = {name: attribute(group, name) for name in group.attrs if name != "meaning"}
+    for name in ("segment", "step"):
+        value = found.get(name, 1.0)
+        if not isinstance(value, int | float) or not 0.0 < value < math.inf:
+            raise TimelineError(f"{path}: units: {name} is {value!r}, must be a number above 0")
+    return found
 
 
 def names(item: h5py.HLObject, prefix: str = "") -> dict[int, str]:

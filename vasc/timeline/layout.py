@@ -41,6 +41,17 @@ DOMAINS = {2: "blade", 3: "stem"}
 """The group of what develops, by the number of dimensions."""
 
 
+HEADER = frozenset(
+    [
+        *("format", "version", "model", "growth", "seed", "records_perceived"),
+        *(MOTION, DIMENSIONS, TISSUE),
+    ]
+)
+"""Attributes of the file; others may add their own."""
+UNIT_NAMES = frozenset(("meaning", "length", "segment", "time", "step"))
+"""Attributes of ``units``, likewise."""
+
+
 class Motion(StrEnum):
     """How a file tells where nodes, sources and the outline are at a step."""
 

@@ -144,7 +144,7 @@ def find(path: Path, file: h5py.File) -> Found:
         is_complete=is_complete,
         counts=_counts(path, datasets, n_frames),
         n_streams=n_streams,
-        seed=_header(path, file, "seed", int),
+        seed=_seed(path, file),
         records_perceived=bool(_header(path, file, "records_perceived", int)),
         motion=motion,
         dimensions=dimensions,
@@ -331,6 +331,14 @@ def _n_streams(path: Path, file: h5py.File) -> int:
     if len(shape) != 3 or shape[2] != WORDS_PER_STREAM or shape[1] > 1000:
         raise TimelineError(f"{path}: frames/streams has rows of shape {list(shape[1:])}")
     return int(shape[1])
+
+
+def _seed(path: Path, file: h5py.File) -> int:
+    """Read the seed."""
+    seed = int(_header(path, file, "seed", int))
+    if seed < 0:
+        raise TimelineError(f"{path}: the attribute 'seed' is {seed}, must be at least 0")
+    return seed
 
 
 def _header(path: Path, file: h5py.File, name: str, kind: Callable[[Any], Any]) -> Any:

@@ -67,7 +67,7 @@ class Timeline:
         self.close()
 
     def __repr__(self) -> str:
-        state = "complete" if self.is_complete else "not complete"
+        state = "complete" if self.opened.found.is_complete else "not complete"
         return f"Timeline({str(self.path)!r}, frames={self.n_frames}, {state})"
 
     _repr_html_ = timeline_card
@@ -89,6 +89,7 @@ class Timeline:
     @property
     def is_complete(self) -> bool:
         """True when the run ended by itself."""
+        self.opened.check()
         return self.opened.found.is_complete
 
     @property
@@ -129,8 +130,7 @@ class Timeline:
     @cached_property
     def units(self) -> dict[str, str | float]:
         """What a length and a time mean; empty for segment lengths and steps."""
-        group = self.opened.item(layout.UNITS)
-        return {name: guard.attribute(group, name) for name in group.attrs if name != "meaning"}
+        return guard.units(self.path, self.opened.item(layout.UNITS))
 
     @cached_property
     def config_toml(self) -> str:

@@ -31,6 +31,7 @@ from vasc.timeline.redo import (
     refuse_strange,
     writer_of,
 )
+from vasc.whole_files import refuse_special
 
 COMPRESSION = 4
 """Level of deflate, from 0 to 9."""
@@ -302,6 +303,7 @@ def check_output(path: Path, *, force: bool) -> None:
     """
     if not path.parent.is_dir():
         raise OutputError(f"{path}: the folder {str(path.parent)!r} does not exist")
+    refuse_special(path)
     if path.is_dir():
         raise OutputError(f"{path}: is a folder")
     refuse_foreign(log_of(path))

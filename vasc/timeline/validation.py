@@ -9,7 +9,7 @@ import numpy as np
 
 from vasc.errors import OutlineError, TimelineError
 from vasc.timeline import areole_rules, guard, layout, motion_rules, rules, tissue_rules
-from vasc.timeline.checksums import damaged
+from vasc.timeline.checksums import check_marks, damaged
 from vasc.timeline.opening import find_places
 from vasc.timeline.provenance import schema
 from vasc.timeline.reader import Timeline
@@ -46,6 +46,7 @@ def validate(path: str | Path) -> list[str]:
                 if found and stage is not STAGES[0]:
                     break
             if not findings:
+                check_marks(timeline.path, timeline.opened.file, timeline.opened.found)
                 findings.extend(_checksums(record))
     except TimelineError as error:
         findings.append(f"[readable] {error}")

@@ -249,7 +249,7 @@ class Recorder:
         complete : bool, optional
             True if the run ended by itself; as the last state says when not given.
         outcome : str, optional
-            A word for the provenance: ``complete`` or ``stopped`` when not given.
+            A word for the provenance of a run that goes on: ``stopped`` when not given.
 
         Raises
         ------
@@ -263,7 +263,7 @@ class Recorder:
         with undisturbed():
             try:
                 if not self._is_broken:
-                    self._finish(is_complete, outcome or ("complete" if is_complete else "stopped"))
+                    self._finish(is_complete, "complete" if is_complete else outcome or "stopped")
             finally:
                 self._store.give_up()
 

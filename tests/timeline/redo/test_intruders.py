@@ -38,6 +38,8 @@ def test_what_is_no_log_is_left_alone(path, kind):
         Recorder.resume(path)
     with Timeline(path) as timeline:
         assert timeline.last_step == 10
+    if kind != "notes":
+        assert validate(path)[0].endswith("-wal: cannot be read, or is no file")
     assert os.path.lexists(log_of(path))
     if kind in ("notes", "link"):
         assert log_of(path).read_text() in ("my notes", "precious")

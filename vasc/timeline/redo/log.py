@@ -223,7 +223,8 @@ def _opened(path: Path) -> Iterator[Contents]:
     with contextlib.ExitStack() as handles:
         log = _handle(log_of(path), handles)
         if log is None or not locks.is_plain(log):
-            yield Contents()
+            is_there = os.path.lexists(log_of(path))
+            yield Contents(problem="cannot be read, or is no file" if is_there else "")
         else:
             yield contents_of(log, _handle(path, handles))
 
