@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Protocol
 
 from vasc.errors import writing
-from vasc.sweeps.folder import SweepFolder
+from vasc.sweeps.folder import DONE, FAILED, SweepFolder
 from vasc.sweeps.reading import Sweep
 from vasc.sweeps.table import write_table
-from vasc.sweeps.work import DONE, FAILED, STOPPED, Result, never
+from vasc.sweeps.work import STOPPED, Result, never
 from vasc.sweeps.workforce import Workforce
 
 SECONDS_BETWEEN_LOOKS = 0.2

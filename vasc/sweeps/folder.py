@@ -21,6 +21,8 @@ if sys.platform != "win32":
     import fcntl
 
 FORMAT = "vasc-sweep 1"
+DONE, FAILED = "done", "failed"
+"""How a run with a result ended."""
 DESCRIPTION = "sweep.json"
 COMPARED = ("base", "replicates", "draws", "seed", "measures", "set", "axes", "random")
 """Keys of a sweep file that decide what its runs are; title and figure may change."""
@@ -186,12 +188,9 @@ def _is_result(found: Any, number: int, measures: list[str]) -> bool:
         return False
     if not all(_is_measure(value) for value in values.values()):
         return False
-    is_whole = not error and values.keys() == set(measures)
-    return (
-        is_whole
-        if found.get("status") == "done"
-        else found.get("status") == "failed" and bool(error)
-    )
+    if error:
+        return bool(found.get("status") == FAILED)
+    return found.get("status") == DONE and values.keys() == set(measures)
 
 
 def _is_measure(value: Any) -> bool:

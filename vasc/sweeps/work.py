@@ -10,7 +10,7 @@ from typing import Any
 from vasc.config import Experiment, load_text
 from vasc.config.bundled import bundled_folder
 from vasc.errors import RunError, TimelineError, VascError
-from vasc.sweeps.folder import SweepFolder
+from vasc.sweeps.folder import DONE, FAILED, SweepFolder
 from vasc.sweeps.measures import measure
 from vasc.sweeps.plan import PlannedRun, as_overrides
 
@@ -19,8 +19,8 @@ logger = logging.getLogger(__name__)
 Result = dict[str, Any]
 """``number, status, error, measures, seconds, bytes``, as in the file of a result."""
 
-DONE, FAILED, STOPPED, MISSING = "done", "failed", "stopped", "missing"
-"""What a run can be; one that was stopped has no result, and is missing in the table."""
+STOPPED, MISSING = "stopped", "missing"
+"""What a run without a result can be; one that was stopped is missing in the table."""
 
 PATIENCE = 600.0
 """Seconds to wait for another process that still writes the timeline."""
